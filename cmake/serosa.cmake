@@ -1,0 +1,12 @@
+# serosa_library(NAME LINK...): a static library of every .cpp file of the current folder.
+function(serosa_library name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(NOT sources MATCHES "\\.cpp")
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE serosa_options ${ARGN})
+    return()
+  endif()
+  add_library(${name} STATIC ${sources})
+  target_link_libraries(${name} PUBLIC serosa_options ${ARGN})
+endfunction()

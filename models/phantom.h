@@ -1,0 +1,24 @@
+#pragma once
+// Digital phantoms generated from signed distance functions (negative inside): deterministic, closed, manifold, no
+// self-contact. `serosa phantom NAME --faces N -o FILE`.
+
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "sim/triangle_mesh.h"
+
+namespace serosa::models {
+
+struct PhantomInfo {
+    std::string name;        // "heart", "dragon", "beam", "ball"
+    std::string description; // one line
+    std::size_t defaultFaces;
+};
+const std::vector<PhantomInfo>& phantoms();
+
+/// Makes a phantom with at least `faces` faces (at most 5% more). Positions in millimetres, y up, about the origin,
+/// with vertex colours. Errors: unknown name (with a suggestion), a face count that the shape cannot have.
+Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces);
+
+} // namespace serosa::models
