@@ -1,0 +1,19 @@
+#pragma once
+// Cameras: scene settings framed on an organ, as matrices. Right-handed, y up; the view looks along -z of the camera.
+
+#include <glm/glm.hpp>
+
+#include "sim/scene.h"
+
+namespace serosa::render {
+
+struct CameraView {
+    glm::dmat4 cameraFromWorld{1};
+    glm::dmat4 clipFromCamera{1};
+    glm::dvec3 eye{0}; // m, world
+};
+
+/// \param lowest, highest bounds to frame where the scene gives no eye or height, m. \param aspect width / height.
+CameraView makeCamera(const sim::Camera& settings, const glm::dvec3& lowest, const glm::dvec3& highest, double aspect);
+
+} // namespace serosa::render

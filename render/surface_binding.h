@@ -1,0 +1,44 @@
+#pragma once
+// Binding of a detailed surface to the lattice's boundary (MS05 3.3, eq. 4-8): for each vertex a triangle of nodes,
+// weights of the reference point, the offset and the rest normal in the triangle basis or the curvature-corrected one.
+// Made once on the CPU, with the packed rest normals as the GPU has them; drawn by shaders/surface.vert (eq. 9).
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "sim/lattice.h"
+#include "sim/scene.h"
+#include "sim/triangle_mesh.h"
+
+namespace serosa::render {
+
+struct VertexBinding {
+    glm::uvec3 nodes;     // indices into the lattice's nodes
+    glm::vec3 weights;    // of eq. 4, sum 1
+    glm::vec3 offset;     // lattice units, in the basis (T, N, B) of `basis`
+    glm::vec3 normal;     // unit rest normal in that basis
+    std::uint32_t basis;  // SRS_BASIS_CONSTANT or SRS_BASIS_CORRECTED
+};
+
+struct SurfaceBinding {
+    sim::Mapping mapping;
+    std::vector<VertexBinding> vertices;  // one a mesh vertex
+    std::vector<std::uint32_t> triangles; // boundary triangle of each vertex
+    // Edges of the mesh whose ends bind to triangles that share no node: found by the closest-triangle search, and left
+    // after flooding from neighbours.
+    std::size_t tornEdgesFound = 0, tornEdgesLeft = 0;
+    std::size_t constantVertices = 0; // vertices that fall back to the constant basis
+    double bytesPerVertex = 0;
+};
+
+/// Binds every vertex. `metres` is the rest surface in world metres. mapping: triangle or curvature.
+SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres, sim::Mapping mapping);
+
+/// Eq. 9 on the CPU in double (the twin of shaders/surface.vert, for tests): vertex positions in lattice units from node
+/// positions (lattice units) and packed node normals.
+std::vector<glm::dvec3> mapSurface(const SurfaceBinding& binding, const std::vector<glm::dvec3>& nodePositions,
+                                   const std::vector<std::uint32_t>& packedNormals);
+
+} // namespace serosa::render

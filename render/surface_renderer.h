@@ -1,0 +1,50 @@
+#pragma once
+// Draws an organ from its state textures: the detailed surface through a mapping of MS05 3.2-3.3, the lattice's springs
+// over it, the tools, a backdrop. Nothing is read back to draw; only the finished picture is.
+
+#include <memory>
+#include <vector>
+
+#include "base/result.h"
+#include "gpu/handles.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/surface_binding.h"
+#include "sim/scene.h"
+#include "sim/state_textures.h"
+
+namespace serosa::render {
+
+/// What is drawn in one picture.
+struct View {
+    CameraView camera;
+    sim::Light light;
+    sim::Look look;
+    std::vector<std::pair<glm::dvec3, double>> toolSpheres; // centre, radius, m, world
+};
+
+class SurfaceRenderer {
+public:
+    /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it.
+    static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                          const SurfaceBinding& binding, const sim::StateTextures& state,
+                                          int width, int height);
+    SurfaceRenderer(SurfaceRenderer&&) noexcept;
+    SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
+    ~SurfaceRenderer();
+
+    /// Draws a frame into the renderer's own multisampled target and resolves it.
+    void draw(const sim::StateTextures& state, const View& view);
+    /// The last drawn frame, sRGB, top row first.
+    Image readImage() const;
+    /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback), for
+    /// surface files; `mapping` triangle or curvature.
+    std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping);
+
+private:
+    struct Impl;
+    explicit SurfaceRenderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace serosa::render

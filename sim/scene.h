@@ -1,0 +1,106 @@
+#pragma once
+// A scene: what one TOML file of schema 1 says, in SI units (docs/scene.md). Every value but schema, model and
+// length_unit has a default. Lengths carry units in the file ("2.5 mm"); bare numbers where a unit belongs are errors.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "base/result.h"
+#include "sim/material.h"
+#include "sim/tool.h"
+
+namespace serosa::sim {
+
+struct FixedRegion {
+    enum class Shape { halfSpace, box, sphere } shape = Shape::halfSpace;
+    int axis = 1;                     // half-space: 0 x, 1 y, 2 z (`axis = "y"`)
+    std::optional<double> below, above; // half-space: m; exactly one
+    glm::dvec3 lowest{0}, highest{0};   // box: `min`, `max`, m
+    glm::dvec3 centre{0};               // sphere, m
+    double radius = 0;                  // sphere, m
+    bool contains(const glm::dvec3& world) const;
+};
+
+/// Procedural pose instead of simulation (figure 6): all nodes follow a bend about the z axis whose radius shrinks from
+/// straight to `radius` over the run: x is the arc length along the bent centre line, which starts level at the organ's middle.
+struct Pose {
+    double bendRadius = 0; // m
+};
+
+struct Organ {
+    std::string name = "organ";
+    std::filesystem::path model; // resolved against the scene file's folder
+    double lengthUnit = 0;       // m per file unit
+    std::size_t nodes = 20000;
+    double spacing = 0;          // m; 0: by nodes
+    Tissue tissue;
+    std::vector<FixedRegion> fixed;
+    double fixedLowestShare = 0; // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
+    std::optional<Pose> pose;
+};
+
+enum class Projection { perspective, orthographic };
+struct Camera {
+    Projection projection = Projection::perspective;
+    std::optional<glm::dvec3> eye, target; // m; default: framed on the organ
+    glm::dvec3 direction{-0.25, -0.15, -1}; // view direction where eye is not given
+    glm::dvec3 up{0, 1, 0};
+    double fieldOfView = 0.5;    // rad, vertical ("28.6 deg"), perspective
+    std::optional<double> height; // m, vertical extent, orthographic
+    double zoom = 1;              // of the default framing
+};
+
+struct Light {
+    glm::dvec3 direction{-0.4, -0.8, -0.6}; // that it shines in
+    double intensity = 1;
+    double ambient = 1;
+};
+
+enum class Mapping { oneToOne, triangle, curvature };
+enum class SurfaceColour { tissue, dynamicNormal };
+struct Look {
+    Mapping mapping = Mapping::curvature;
+    SurfaceColour colour = SurfaceColour::tissue;
+    bool surface = true, lattice = false, tools = true; // what is drawn
+};
+
+struct Output {
+    int width = 960, height = 960; // pixels: size = [960, 960]
+    std::vector<double> surfacesAt; // s
+    int frameEvery = 1;             // every how many frames a picture is written
+    int sheetColumns = 4, sheetRows = 3; // contact sheet
+    std::vector<double> sheetAt;    // s; empty: evenly spread
+};
+
+struct Scene {
+    std::filesystem::path file; // empty: made from command line options
+    double frameRate = 60;      // Hz
+    double duration = 2;        // s
+    glm::dvec3 gravity{0, -9.81, 0}; // m/s2
+    std::vector<Organ> organs;  // exactly one in this version
+    std::vector<Tool> tools;
+    Camera camera;
+    Light light;
+    Look look;
+    Output output;
+
+    int frames() const; // duration * frameRate, rounded; at least 1
+};
+
+/// Reads and checks a scene file. Errors carry file:line:column: syntax, unknown key (with the nearest known one), wrong
+/// type, missing or wrong unit, out of range, missing required key, model file not found.
+Result<Scene> readScene(const std::filesystem::path& file);
+
+/// The scene that `serosa run --model FILE --length-unit U` uses: 5 kPa, Poisson 0.25, 1000 kg/m3, 20,000 nodes, 60 Hz,
+/// 120 frames, the lowest 5% fixed, a probe that presses the top by 5% of the size and leaves.
+/// \param lowest, highest bounds of the surface, m.
+Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const glm::dvec3& lowest, const glm::dvec3& highest);
+
+/// "mm", "cm", "m", "um", "in" in metres. Errors: unknown unit, with a suggestion.
+Result<double> parseLengthUnit(const std::string& text);
+
+} // namespace serosa::sim

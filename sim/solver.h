@@ -1,0 +1,82 @@
+#pragma once
+// One interface for all solvers of the spring lattice: `reference` (CPU, double: the oracle) and `fragment` (MS05's way).
+//
+// A step, for a node of mass share m = sum(f)/8 and spring weights w (sim/lattice.h), in lattice units:
+//   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full constant)
+//      - dampingTime/dt sum_j w_ij n (n . (u_i - u_j)),  n = d/|d|          (along springs, u the increments)
+//   u' = (1 - airDrag dt) u + dt^2 (k/(rho h^3) F/m + g/h)
+//   x' = x + u';  then tools: x' is moved out of a pushing sphere or with a grasping one, and u' = x' - x.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/lattice.h"
+#include "sim/lattice_state.h"
+#include "sim/material.h"
+#include "sim/tool.h"
+
+namespace serosa::sim {
+
+class StateTextures; // sim/state_textures.h
+
+/// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its lifetime.
+struct SolverSetup {
+    const Lattice* lattice = nullptr; // not null; outlives the solver
+    Tissue tissue;
+    glm::dvec3 gravity{0};            // m/s2
+    double timeStep = 0;              // s
+    std::vector<bool> fixed;          // one a node; empty: none
+    std::vector<Tool> tools;          // at most SRS_MAX_TOOLS
+};
+
+class Solver {
+public:
+    virtual ~Solver() = default;
+    virtual const char* name() const = 0;
+    /// Takes `count` steps; tools are evaluated at the end time of each step.
+    virtual void advance(int count) = 0;
+    /// Reads the whole state back (the fragment solver stalls: not for drawing).
+    virtual LatticeState state() const = 0;
+    /// Continues from a state (sizes must match).
+    virtual void setState(const LatticeState& state) = 0;
+    /// Impulse that each tool gave to the organ since the last call, N s. One a tool.
+    virtual std::vector<glm::dvec3> takeToolImpulses() = 0;
+    /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
+    virtual const StateTextures* textures() const { return nullptr; }
+};
+
+/// Fails of energy bookkeeping: all in joules, from a state.
+struct Energies {
+    double kinetic = 0, elastic = 0, gravitational = 0;
+};
+/// Kinetic energy uses the increments: u h / dt. Gravity's zero is the rest state.
+Energies energies(const SolverSetup& setup, const LatticeState& state);
+
+/// The rest state of a lattice: integer positions, zero increments, rest normals.
+LatticeState restState(const Lattice& lattice);
+
+std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
+
+struct FragmentOptions {
+    int layout = -1;         // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
+    bool normals = true;     // write eq. 3 into alpha (benchmarks switch it off)
+    bool printedForm = true; // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
+    bool useTexelFetch = false; // texelFetch instead of imageLoad
+};
+/// Needs a current GL context. Errors: the lattice does not fit the context's textures (says the limit), shader errors.
+Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup, const FragmentOptions& options = {});
+
+/// How the time step was computed, for the summary.
+struct StableStep {
+    double stiffestRate2 = 0; // omega^2 in 1/s2: power iteration on the rest lattice, never below 12 k/m
+    double formulaRate2 = 0;  // 12 k/m
+    double bound = 0;         // s: stable below, damping included
+    double margin = 0;        // share of the bound that is used
+    int stepsPerFrame = 0;
+    double timeStep = 0;      // s: frame time / stepsPerFrame
+};
+/// Largest stable explicit step for a frame of `frameTime` seconds.
+StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime);
+
+} // namespace serosa::sim

@@ -1,0 +1,35 @@
+#pragma once
+// The state of one lattice on the GPU: positions (RGBA32F: xyz lattice units, alpha packed normal), increments (RGBA32F),
+// node info (RGBA32UI). Drawing passes read positions() and texelOfNode of the layout.
+
+#include "gpu/handles.h"
+#include "sim/lattice_state.h"
+#include "sim/texture_layout.h"
+
+namespace serosa::sim {
+
+class StateTextures {
+public:
+    /// Uploads the rest state. Needs a current context. Errors: as makeTextureLayout.
+    static Result<StateTextures> create(const Lattice& lattice, const std::vector<bool>& fixed, int layoutKind = -1);
+
+    const TextureLayout& layout() const { return layout_; }
+    const gpu::Texture2D& positions() const { return positions_[current_]; }
+    const gpu::Texture2D& increments() const { return increments_[current_]; }
+    const gpu::Texture2D& nodeInfo() const { return nodeInfo_[currentInfo_]; }
+
+    /// Replaces positions, increments, normals and held flags.
+    void upload(const LatticeState& state);
+    /// Reads all back (stalls).
+    LatticeState download(std::int64_t step) const;
+
+private:
+    friend class FragmentSolver;
+    StateTextures() = default;
+    TextureLayout layout_;
+    std::vector<std::array<std::uint32_t, 4>> info_; // CPU copy of node info without held flags, one a texel
+    gpu::Texture2D positions_[2], increments_[2], nodeInfo_[2], rowOffsets_[2];
+    int current_ = 0, currentInfo_ = 0;
+};
+
+} // namespace serosa::sim
