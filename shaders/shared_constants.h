@@ -29,7 +29,7 @@
 
 // Packed normals: octahedral, 15 bits a coordinate, bits 30 and 23 fixed so that the float is never NaN, infinite or
 // denormal.
-#define SRS_NORMAL_STEPS 32767.0
+#define SRS_NORMAL_HALF_STEPS 16380.0 // of a coordinate -1..1 on either side of 0; divides by 2, 3 and 4
 
 // Surface mapping modes, a vertex
 #define SRS_BASIS_CONSTANT 0u
