@@ -1,0 +1,142 @@
+// The oracle: MS05 eq. 1 in double precision with plain loops, one node after another. What a step does stands in
+// sim/solver.h; the fragment solver's twin is shaders/solver_kernel.glsl.
+#include <cmath>
+
+#include "shaders/shared_constants.h"
+#include "sim/packed_normal.h"
+#include "sim/solver.h"
+#include "sim/tool_motion.h"
+
+namespace serosa::sim {
+
+namespace {
+
+class ReferenceSolver final : public Solver {
+public:
+    explicit ReferenceSolver(const SolverSetup& setup) : setup_(setup), state_(restState(*setup.lattice)) {
+        const Lattice& lattice = *setup.lattice;
+        const std::size_t count = lattice.nodeCount();
+        if (setup_.fixed.empty())
+            setup_.fixed.assign(count, false);
+        neighbours_.resize(count * SRS_NEIGHBOURS);
+        weights_.resize(count * SRS_NEIGHBOURS);
+        mass_.resize(count);
+        for (std::size_t node = 0; node < count; ++node) {
+            mass_[node] = lattice.massShare(node);
+            for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
+                const std::size_t slot = node * SRS_NEIGHBOURS + std::size_t(d);
+                neighbours_[slot] = lattice.neighbour(node, d);
+                weights_[slot] = lattice.springWeight(node, d);
+            }
+        }
+        impulses_.assign(setup_.tools.size(), glm::dvec3(0));
+    }
+
+    const char* name() const override { return "reference"; }
+
+    void advance(int count) override {
+        for (int i = 0; i < count; ++i)
+            step();
+    }
+
+    LatticeState state() const override { return state_; }
+
+    void setState(const LatticeState& state) override {
+        SEROSA_CHECK(state.positions.size() == state_.positions.size(), "a state of this lattice");
+        state_ = state;
+    }
+
+    std::vector<glm::dvec3> takeToolImpulses() override {
+        std::vector<glm::dvec3> taken(setup_.tools.size(), glm::dvec3(0));
+        // From lattice units a step to N s: mass h / dt.
+        const double unit = setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
+        for (std::size_t tool = 0; tool < taken.size(); ++tool)
+            taken[tool] = impulses_[tool] * unit;
+        impulses_.assign(setup_.tools.size(), glm::dvec3(0));
+        return taken;
+    }
+
+private:
+    void step() {
+        const Lattice& lattice = *setup_.lattice;
+        const double dt = setup_.timeStep;
+        const double acceleration = dt * dt * setup_.tissue.stiffnessOverMass(lattice.spacing);
+        const double damping = setup_.tissue.dampingTime / dt;
+        const double drag = 1 - setup_.tissue.airDrag * dt;
+        const glm::dvec3 gravity = setup_.gravity * (dt * dt / lattice.spacing);
+        const std::vector<ToolMotion> tools = toolMotions(setup_, state_.step);
+        updateHeldNodes(setup_, tools, state_);
+
+        const std::vector<glm::dvec3>& x = state_.positions;
+        const std::vector<glm::dvec3>& u = state_.increments;
+        LatticeState next = state_;
+        for (std::size_t node = 0; node < x.size(); ++node) {
+            glm::dvec3 force(0), normal(0);
+            for (std::size_t slot = node * SRS_NEIGHBOURS; slot < (node + 1) * SRS_NEIGHBOURS; ++slot) {
+                if (weights_[slot] <= 0)
+                    continue;
+                const std::size_t other = std::size_t(neighbours_[slot]);
+                const double rest = slot % SRS_NEIGHBOURS < 6 ? 1.0 : std::sqrt(2.0);
+                const glm::dvec3 d = x[node] - x[other];
+                const double length = std::max(glm::length(d), 1e-6);
+                const glm::dvec3 unit = d / length;
+                normal += unit;
+                force += weights_[slot] * ((rest - length) * unit - damping * glm::dot(unit, u[node] - u[other]) * unit);
+            }
+            next.normals[node] = packNormal(glm::vec3(normal));
+            if (setup_.fixed[node]) {
+                next.increments[node] = glm::dvec3(0);
+                continue;
+            }
+            const glm::dvec3 free = x[node] + drag * u[node] + acceleration / mass_[node] * force + gravity;
+            glm::dvec3 moved = free;
+            for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+                const glm::dvec3 before = moved;
+                moved = tools[tool].apply(x[node], moved, state_.heldBy[node] == tool + 1);
+                impulses_[tool] += mass_[node] * (moved - before);
+            }
+            next.positions[node] = moved;
+            next.increments[node] = moved - x[node];
+        }
+        next.step = state_.step + 1;
+        state_ = std::move(next);
+    }
+
+    SolverSetup setup_;
+    LatticeState state_;
+    std::vector<std::int64_t> neighbours_; // 18 a node, -1 where none
+    std::vector<double> weights_;          // 18 a node, 0 where none
+    std::vector<double> mass_;             // share of a full node's
+    std::vector<glm::dvec3> impulses_;     // mass shares times lattice units a step
+};
+
+} // namespace
+
+std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup) {
+    SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
+    SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    return std::make_unique<ReferenceSolver>(setup);
+}
+
+Energies energies(const SolverSetup& setup, const LatticeState& state) {
+    const Lattice& lattice = *setup.lattice;
+    const double h = lattice.spacing, k = setup.tissue.springConstant(h), m = setup.tissue.nodeMass(h);
+    Energies sum;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        const double mass = m * lattice.massShare(node);
+        const glm::dvec3 velocity = state.increments[node] * (h / setup.timeStep);
+        sum.kinetic += 0.5 * mass * glm::dot(velocity, velocity);
+        sum.gravitational -= mass * glm::dot(setup.gravity, h * (state.positions[node] - lattice.restPosition(node)));
+        for (int d = 0; d < SRS_NEIGHBOURS; d += 2) {
+            const std::int64_t other = lattice.neighbour(node, d);
+            if (other < 0)
+                continue;
+            const double rest = d < 6 ? 1.0 : std::sqrt(2.0);
+            const double stretch = glm::length(state.positions[node] - state.positions[std::size_t(other)]) - rest;
+            sum.elastic += 0.5 * k * lattice.springWeight(node, d) * stretch * stretch * h * h;
+        }
+    }
+    return sum;
+}
+
+} // namespace serosa::sim

@@ -1,0 +1,60 @@
+// Contact projects a node out of the sphere along the radius; the increment that follows from it ends the approach and
+// keeps the slide. Grasped nodes move with the sphere.
+#include "sim/tool_motion.h"
+
+#include "shaders/shared_constants.h"
+
+namespace serosa::sim {
+
+glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool held) const {
+    if (mode == SRS_TOOL_GRASP)
+        return held ? x + (to - from) : free;
+    if (mode != SRS_TOOL_PUSH)
+        return free;
+    const glm::dvec3 away = free - to;
+    const double distance = glm::length(away);
+    if (distance >= radius)
+        return free;
+    return to + (distance > 1e-6 ? away / distance : glm::dvec3(0, 1, 0)) * radius;
+}
+
+std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step) {
+    const double start = double(step) * setup.timeStep, end = double(step + 1) * setup.timeStep;
+    const double tick = 1e-6 * setup.timeStep; // keys at a step's time count as reached
+    std::vector<ToolMotion> motions;
+    for (const Tool& tool : setup.tools) {
+        ToolMotion motion;
+        motion.from = setup.lattice->toLattice(tool.centreAt(start));
+        motion.to = setup.lattice->toLattice(tool.centreAt(end));
+        motion.radius = tool.radius / setup.lattice->spacing;
+        const bool active = tool.activeAt(start + tick);
+        if (tool.mode == ToolMode::push) {
+            motion.mode = SRS_TOOL_PUSH;
+        } else {
+            const bool before = step > 0 && tool.activeAt(double(step - 1) * setup.timeStep + tick);
+            motion.mode = active ? SRS_TOOL_GRASP : SRS_TOOL_NONE;
+            motion.closes = active && !before;
+            motion.opens = !active && before;
+        }
+        motions.push_back(motion);
+    }
+    return motions;
+}
+
+void updateHeldNodes(const SolverSetup& setup, const std::vector<ToolMotion>& tools, LatticeState& state) {
+    for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+        if (!tools[tool].closes && !tools[tool].opens)
+            continue;
+        for (std::size_t node = 0; node < state.positions.size(); ++node) {
+            std::uint32_t& holder = state.heldBy[node];
+            if (tools[tool].opens && holder == tool + 1)
+                holder = 0;
+            const bool fixed = !setup.fixed.empty() && setup.fixed[node];
+            if (tools[tool].closes && holder == 0 && !fixed &&
+                glm::length(state.positions[node] - tools[tool].from) < tools[tool].radius)
+                holder = std::uint32_t(tool + 1);
+        }
+    }
+}
+
+} // namespace serosa::sim
