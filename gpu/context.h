@@ -1,13 +1,14 @@
 #pragma once
-// OpenGL 4.5 core contexts behind one interface: surfaceless EGL, an EGL device (a GPU without a display server), OSMesa
-// (software, opened with dlopen(RTLD_LOCAL) and never linked: it exports every gl name). A window context joins later.
-// OSMesa shares its dispatch with Mesa's EGL: makeCurrent releases the current context of any other kind first.
+// OpenGL 4.5 core contexts behind one interface: surfaceless EGL, an EGL device (a GPU without a display
+// server), OSMesa (software, opened with dlopen(RTLD_LOCAL) and never linked: it exports every gl name). A
+// window context joins later. OSMesa shares its dispatch with Mesa's EGL: makeCurrent releases the current
+// context of any other kind first.
+
+#include "base/result.h"
 
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "base/result.h"
 
 namespace serosa::gpu {
 
@@ -15,7 +16,8 @@ enum class ContextKind { egl, eglDevice, osmesa };
 /// "egl", "egl-device", "osmesa"
 const char* contextKindName(ContextKind kind);
 
-/// What a user asks for (`--gl`): automatic is an EGL device with hardware, EGL surfaceless, then OSMesa; never a window.
+/// What a user asks for (`--gl`): automatic is an EGL device with hardware, EGL surfaceless, then OSMesa;
+/// never a window.
 enum class GlChoice { automatic, egl, eglDevice, osmesa };
 Result<GlChoice> parseGlChoice(const std::string& text);
 
@@ -31,8 +33,8 @@ public:
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes this context current in the calling thread, releases one of another kind, and points the entry points of
-    /// gpu/gl.h at this context's own loader.
+    /// Makes this context current in the calling thread, releases one of another kind, and points the entry
+    /// points of gpu/gl.h at this context's own loader.
     virtual void makeCurrent() = 0;
     virtual ContextKind kind() const = 0;
     const ContextInfo& info() const { return info_; }
@@ -56,13 +58,15 @@ struct ContextOffer {
         std::string name;
         long long value, needed;
     };
-    std::vector<Limit> limits;                                 // texture size, image units, vertex texture units, ...
-    std::vector<std::pair<std::string, bool>> floatTargets;    // renderable: RGBA32F, RGBA16F, ..., additive blending of RGBA32F
+    std::vector<Limit> limits; // texture size, image units, vertex texture units, ...
+    std::vector<std::pair<std::string, bool>>
+        floatTargets; // renderable: RGBA32F, RGBA16F, ..., additive blending of RGBA32F
 };
 /// Tries every kind in turn (each in this thread) and reports.
 std::vector<ContextOffer> surveyContexts();
 
-/// How GL errors that the debug callback reports are treated: a log line (default), or counted as failures by tests.
+/// How GL errors that the debug callback reports are treated: a log line (default), or counted as failures by
+/// tests.
 enum class GlErrorPolicy { log, fail };
 void setGlErrorPolicy(GlErrorPolicy policy);
 /// GL errors seen since the last call, with their messages (policy fail); tests assert that this is empty.

@@ -1,15 +1,16 @@
 #pragma once
-// Move-only owners of GL objects, with labels (glObjectLabel) and direct state access. Ids are private to gpu/ users
-// through id(); nothing else creates or deletes GL objects. All need a current context, and must die before it.
+// Move-only owners of GL objects, with labels (glObjectLabel) and direct state access. Ids are private to
+// gpu/ users through id(); nothing else creates or deletes GL objects. All need a current context, and must
+// die before it.
+
+#include "gpu/gl.h"
+
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
-
-#include <glm/glm.hpp>
-
-#include "gpu/gl.h"
 
 namespace serosa::gpu {
 
@@ -34,7 +35,8 @@ public:
     /// \param data may be null; bytes may be 0 (then one byte is allocated).
     Buffer(const std::string& label, std::size_t bytes, const void* data);
     template <class T>
-    Buffer(const std::string& label, std::span<const T> items) : Buffer(label, items.size_bytes(), items.data()) {}
+    Buffer(const std::string& label, std::span<const T> items)
+        : Buffer(label, items.size_bytes(), items.data()) {}
     Buffer(Buffer&&) noexcept = default;
     Buffer& operator=(Buffer&& other) noexcept;
     ~Buffer();
@@ -50,7 +52,8 @@ private:
 class Texture2D : public Handle {
 public:
     Texture2D() = default;
-    /// \param format sized internal format, for example GL_RGBA32F, GL_RGBA32UI, GL_RGBA8, GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT32F
+    /// \param format sized internal format, for example GL_RGBA32F, GL_RGBA32UI, GL_RGBA8, GL_SRGB8_ALPHA8,
+    /// GL_DEPTH_COMPONENT32F
     Texture2D(const std::string& label, GLenum format, int width, int height);
     Texture2D(Texture2D&&) noexcept = default;
     Texture2D& operator=(Texture2D&& other) noexcept;
@@ -103,10 +106,13 @@ public:
     VertexArray(VertexArray&&) noexcept = default;
     VertexArray& operator=(VertexArray&& other) noexcept;
     ~VertexArray();
-    /// Float attribute `location` of `components` items of `type` at `offset` in vertices of `stride` bytes of `buffer`.
-    void attribute(int location, const Buffer& buffer, int components, GLenum type, bool normalized, int stride, int offset);
+    /// Float attribute `location` of `components` items of `type` at `offset` in vertices of `stride` bytes
+    /// of `buffer`.
+    void attribute(int location, const Buffer& buffer, int components, GLenum type, bool normalized,
+                   int stride, int offset);
     /// Integer attribute (uint in the shader).
-    void integerAttribute(int location, const Buffer& buffer, int components, GLenum type, int stride, int offset);
+    void integerAttribute(int location, const Buffer& buffer, int components, GLenum type, int stride,
+                          int offset);
     void indices(const Buffer& buffer); // 32-bit indices
 };
 

@@ -1,6 +1,12 @@
 #pragma once
-// Shader programs: sources from the embedded library (or a folder on disk), includes, defines, numbered errors that name
-// the include, typed setters, and refusal to draw while an active uniform, sampler or image was never set.
+// Shader programs: sources from the embedded library (or a folder on disk), includes, defines, numbered
+// errors that name the include, typed setters, and refusal to draw while an active uniform, sampler or image
+// was never set.
+
+#include "base/result.h"
+#include "gpu/handles.h"
+
+#include <glm/glm.hpp>
 
 #include <filesystem>
 #include <map>
@@ -8,24 +14,20 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
-
-#include "base/result.h"
-#include "gpu/handles.h"
-
 namespace serosa::gpu {
 
 struct ShaderDefine {
     std::string name, value;
 };
 
-/// Where shader text comes from: the binary, or a folder (hot reload). `#include "name"` is resolved here, once per file.
+/// Where shader text comes from: the binary, or a folder (hot reload). `#include "name"` is resolved here,
+/// once per file.
 class ShaderLibrary {
 public:
-    ShaderLibrary() = default;                                       // embedded sources
-    explicit ShaderLibrary(std::filesystem::path folder);            // files on disk, for editing
-    /// Whole source of a stage after includes and defines, with #line directives. Errors: unknown file or include
-    /// (with file and line of the include), include cycles.
+    ShaderLibrary() = default;                            // embedded sources
+    explicit ShaderLibrary(std::filesystem::path folder); // files on disk, for editing
+    /// Whole source of a stage after includes and defines, with #line directives. Errors: unknown file or
+    /// include (with file and line of the include), include cycles.
     Result<std::string> expand(const std::string& name, const std::vector<ShaderDefine>& defines) const;
     /// Numbered source file names of the last expand, by the source-string number of #line.
     /// The text of one file without expansion.
@@ -35,8 +37,9 @@ private:
     std::optional<std::filesystem::path> folder_;
 };
 
-/// A linked program. Setters keep values in the program object (DSA); unknown names are SEROSA_CHECKs unless the
-/// compiler removed them (a name that the source never mentions is a broken promise; an inactive one is ignored).
+/// A linked program. Setters keep values in the program object (DSA); unknown names are SEROSA_CHECKs unless
+/// the compiler removed them (a name that the source never mentions is a broken promise; an inactive one is
+/// ignored).
 class Program : public Handle {
 public:
     Program() = default;
@@ -45,7 +48,8 @@ public:
     ~Program();
 
     /// \param stages file names; the suffix (.vert .geom .frag .comp) says the stage.
-    /// Errors: compile and link logs with file:line of the shader file or include, and the numbered source around it.
+    /// Errors: compile and link logs with file:line of the shader file or include, and the numbered source
+    /// around it.
     static Result<Program> create(const ShaderLibrary& library, const std::vector<std::string>& stages,
                                   const std::vector<ShaderDefine>& defines = {});
 
@@ -63,10 +67,12 @@ public:
     Program& set(const std::string& name, std::span<const glm::vec4> values);
     /// Sampler `t_...`: remembers the texture; bound to a unit by use().
     Program& texture(const std::string& name, const Texture2D& texture);
-    /// Image `i_...` (image2D, uimage2D): remembers texture and access; bound by use(). access: GL_READ_ONLY, ...
+    /// Image `i_...` (image2D, uimage2D): remembers texture and access; bound by use(). access: GL_READ_ONLY,
+    /// ...
     Program& image(const std::string& name, const Texture2D& texture, GLenum access);
 
-    /// glUseProgram and binds samplers and images. SEROSA_CHECKs, naming the input, that every active one was set.
+    /// glUseProgram and binds samplers and images. SEROSA_CHECKs, naming the input, that every active one was
+    /// set.
     void use() const;
     /// Names of active inputs that were never set; empty when use() would succeed.
     std::vector<std::string> unsetInputs() const;
@@ -76,8 +82,8 @@ private:
         GLint location = -1;
         GLenum type = 0;
         bool isSet = false;
-        int unit = -1;          // samplers and images
-        GLuint textureId = 0;   // samplers and images
+        int unit = -1;        // samplers and images
+        GLuint textureId = 0; // samplers and images
         GLenum imageAccess = 0, imageFormat = 0;
     };
     std::map<std::string, Input> inputs_;
@@ -85,7 +91,8 @@ private:
     std::string source_; // all stages, to tell an inactive name from an unknown one
 };
 
-/// Draws one triangle that covers the viewport (pass.vert makes it from gl_VertexID): what every state pass uses.
+/// Draws one triangle that covers the viewport (pass.vert makes it from gl_VertexID): what every state pass
+/// uses.
 void drawFullScreen(const VertexArray& emptyVertexArray);
 
 } // namespace serosa::gpu
