@@ -1,0 +1,253 @@
+// The list of scene keys. A default stands here as text for the reader and in sim/scene.h as a value for the
+// program; a test holds the two equal.
+
+#include "sim/scene_keys.h"
+
+#include "shaders/shared_constants.h"
+
+#include <limits>
+#include <sstream>
+
+namespace serosa::sim {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr ValueRange kAny{-kInfinity, kInfinity};
+constexpr ValueRange kPositive{0, kInfinity, true};
+constexpr ValueRange kNotNegative{0, kInfinity};
+constexpr ValueRange kShare{0, 1, true};
+
+SceneKey quantity(const char* table, const char* name, Dimension dimension, ValueRange range,
+                  const char* fallback, const char* meaning, ValueKind kind = ValueKind::quantity) {
+    return {table, name, kind, dimension, range, {}, fallback, meaning};
+}
+SceneKey plain(const char* table, const char* name, ValueKind kind, ValueRange range, const char* fallback,
+               const char* meaning) {
+    return {table, name, kind, Dimension::length, range, {}, fallback, meaning};
+}
+SceneKey word(const char* table, const char* name, std::vector<std::string> words, const char* fallback,
+              const char* meaning) {
+    return {table, name, ValueKind::word, Dimension::length, kAny, std::move(words), fallback, meaning};
+}
+
+using Kind = ValueKind;
+using Dim = Dimension;
+
+std::vector<SceneKey> makeKeys() {
+    return {
+        plain("", "schema", Kind::integer, {1, 1}, nullptr, "version of this format"),
+        quantity("", "frame_rate", Dim::frequency, {0.001, 1e6}, "\"60 Hz\"",
+                 "pictures a second of simulated time"),
+        quantity("", "duration", Dim::time, kPositive, "\"2 s\"",
+                 "simulated time; rounded to whole frames, at least one"),
+        quantity("", "gravity", Dim::acceleration, kAny, "[\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s2\"]",
+                 "acceleration of gravity, y is up", Kind::quantity3),
+        plain("", "organ", Kind::tables, kAny, nullptr, "the organ; this version takes exactly one"),
+        plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most four"),
+        plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
+        plain("", "light", Kind::table, kAny, "", "how it is lit"),
+        plain("", "look", Kind::table, kAny, "", "what is drawn"),
+        plain("", "output", Kind::table, kAny, "", "what is written"),
+
+        plain("organ", "name", Kind::text, kAny, "\"organ\"", "what messages call it"),
+        plain("organ", "model", Kind::text, kAny, nullptr,
+              "closed surface: OBJ, PLY, OFF or STL; the path is relative to the scene file"),
+        word("organ", "length_unit", unitNames(Dim::length), nullptr, "unit of the model's coordinates"),
+        plain("organ", "nodes", Kind::integer, {8, 1e9}, "20000",
+              "lattice nodes aimed at; not beside `spacing`"),
+        quantity("organ", "spacing", Dim::length, kPositive, "", "lattice spacing, instead of `nodes`"),
+        plain("organ", "tissue", Kind::table, kAny, "", "what it is made of"),
+        plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
+        plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
+
+        quantity("organ.tissue", "young", Dim::pressure, {0, 1e12, true}, "\"5 kPa\"", "Young's modulus"),
+        plain("organ.tissue", "poisson", Kind::number, {-1, 0.5}, "0.25",
+              "Poisson's ratio; this version takes 0.25 only, which the springs give by themselves"),
+        quantity("organ.tissue", "density", Dim::density, {0, 1e6, true}, "\"1000 kg/m3\"",
+                 "mass of a volume"),
+        quantity("organ.tissue", "damping_time", Dim::time, kNotNegative, "\"0.5 ms\"",
+                 "damping along springs: c = damping_time * k"),
+        quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
+                 "drag on a node's velocity"),
+
+        word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region"),
+        word("organ.fixed", "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),
+        quantity("organ.fixed", "below", Dim::length, kAny, "",
+                 "half-space: fixed where the coordinate is less"),
+        quantity("organ.fixed", "above", Dim::length, kAny, "",
+                 "half-space: fixed where the coordinate is greater"),
+        quantity("organ.fixed", "min", Dim::length, kAny, "", "box: lowest corner", Kind::quantity3),
+        quantity("organ.fixed", "max", Dim::length, kAny, "", "box: highest corner", Kind::quantity3),
+        quantity("organ.fixed", "centre", Dim::length, kAny, "", "sphere: centre", Kind::quantity3),
+        quantity("organ.fixed", "radius", Dim::length, kPositive, "", "sphere: radius"),
+        plain("organ.fixed", "share", Kind::number, kShare, "",
+              "lowest: this share of the organ's height, from below"),
+
+        quantity("organ.pose", "bend_radius", Dim::length, kPositive, nullptr,
+                 "all nodes follow a bend about the z axis, from straight to this radius over the run; the "
+                 "ends go down"),
+
+        plain("tool", "name", Kind::text, kAny, "", "what messages call it"),
+        word("tool", "kind", {"sphere"}, "\"sphere\"", "its shape"),
+        quantity("tool", "radius", Dim::length, kPositive, "\"5 mm\"", "radius of the sphere"),
+        word("tool", "mode", {"push", "grasp"}, "\"push\"",
+             "push: nodes stay outside; grasp: holds the nodes inside it from its first key to its last"),
+        plain("tool", "keys", Kind::tables, kAny, nullptr,
+              "poses with strictly increasing times; grasp needs two"),
+        quantity("tool.keys", "t", Dim::time, kNotNegative, nullptr, "time of the pose"),
+        quantity("tool.keys", "at", Dim::length, kAny, nullptr, "centre of the sphere then", Kind::quantity3),
+
+        word("camera", "projection", {"perspective", "orthographic"}, "\"perspective\"", "kind of camera"),
+        quantity("camera", "eye", Dim::length, kAny, "",
+                 "where it stands; without it, it is framed on the organ", Kind::quantity3),
+        quantity("camera", "target", Dim::length, kAny, "",
+                 "what it looks at; without it, the organ's middle", Kind::quantity3),
+        plain("camera", "direction", Kind::number3, kAny, "[-0.25, -0.15, -1]",
+              "where it looks to; not beside `eye`"),
+        plain("camera", "up", Kind::number3, kAny, "[0, 1, 0]", "up in the picture"),
+        quantity("camera", "fov", Dim::angle, {1, 170}, "\"0.5 rad\"", "perspective: vertical field of view"),
+        quantity("camera", "height", Dim::length, kPositive, "",
+                 "orthographic: vertical extent of the picture"),
+        plain("camera", "zoom", Kind::number, {0.001, 1000}, "1",
+              "enlarges the framing; not beside `eye` or `height`"),
+
+        plain("light", "direction", Kind::number3, kAny, "[-0.4, -0.8, -0.6]", "where it shines to"),
+        plain("light", "intensity", Kind::number, {0, 100}, "1", "of the direct light"),
+        plain("light", "ambient", Kind::number, {0, 100}, "1", "of the light from all around"),
+
+        word("look", "mapping", {"one-to-one", "triangle", "curvature"}, "\"curvature\"",
+             "how the surface follows the lattice (MS05 3.2, 3.3)"),
+        word("look", "colour", {"tissue", "dynamic-normal"}, "\"tissue\"", "what the surface is coloured by"),
+        plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
+        plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
+        plain("look", "tools", Kind::boolean, kAny, "true", "draw the tools"),
+
+        plain("output", "size", Kind::integer2, {16, 16384}, "[960, 960]",
+              "width and height of pictures in pixels"),
+        quantity("output", "surfaces_at", Dim::time, kNotNegative, "[]",
+                 "times at which deformed surfaces are written", Kind::quantityList),
+        plain("output", "frame_every", Kind::integer, {1, 1e6}, "1", "a picture every so many frames"),
+        plain("output", "sheet_columns", Kind::integer, {1, 16}, "4", "columns of the contact sheet"),
+        plain("output", "sheet_rows", Kind::integer, {1, 16}, "3", "rows of the contact sheet"),
+        quantity("output", "sheet_at", Dim::time, kNotNegative, "[]",
+                 "times on the contact sheet; empty: evenly spread", Kind::quantityList),
+    };
+}
+
+std::string quantityName(Dimension dimension) {
+    std::string units;
+    for (const std::string& unit : unitNames(dimension))
+        units += (units.empty() ? "" : ", ") + unit;
+    return std::string(dimensionName(dimension)) + " (" + units + ")";
+}
+
+std::string tableTitle(const std::string& table) {
+    if (table.empty())
+        return "At the top";
+    const bool repeated = table == "organ" || table == "organ.fixed" || table == "tool";
+    if (table == "tool.keys")
+        return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
+    return repeated ? "`[[" + table + "]]`" : "`[" + table + "]`";
+}
+
+} // namespace
+
+std::string ValueRange::text() const {
+    const bool bounded = high < kInfinity;
+    if (low == high)
+        return formatNumber(low);
+    if (low == -kInfinity)
+        return bounded ? "at most " + formatNumber(high) : "";
+    const std::string least = (lowOpen   ? "greater than "
+                               : bounded ? "from "
+                                         : "at least ") +
+                              formatNumber(low);
+    if (!bounded)
+        return least;
+    return least + (lowOpen ? ", at most " : " to ") + formatNumber(high);
+}
+
+const std::vector<SceneKey>& sceneKeys() {
+    static const std::vector<SceneKey> keys = makeKeys();
+    return keys;
+}
+
+const SceneKey* findSceneKey(const std::string& table, const std::string& name) {
+    for (const SceneKey& key : sceneKeys())
+        if (table == key.table && name == key.name)
+            return &key;
+    return nullptr;
+}
+
+std::vector<std::string> keyNames(const std::string& table) {
+    std::vector<std::string> names;
+    for (const SceneKey& key : sceneKeys())
+        if (table == key.table)
+            names.emplace_back(key.name);
+    return names;
+}
+
+std::string describeValue(const SceneKey& key) {
+    std::string text;
+    switch (key.kind) {
+    case Kind::integer:
+        text = "integer";
+        break;
+    case Kind::number:
+        text = "number";
+        break;
+    case Kind::boolean:
+        return "true or false";
+    case Kind::text:
+        return "text";
+    case Kind::word:
+        for (std::size_t i = 0; i < key.words.size(); ++i)
+            text += (i == 0 ? "\"" : i + 1 == key.words.size() ? " or \"" : ", \"") + key.words[i] + "\"";
+        return text;
+    case Kind::quantity:
+        text = quantityName(key.dimension);
+        break;
+    case Kind::quantity3:
+        text = "array of 3: " + quantityName(key.dimension);
+        break;
+    case Kind::quantityList:
+        text = "array: " + quantityName(key.dimension);
+        break;
+    case Kind::number3:
+        text = "array of 3 numbers";
+        break;
+    case Kind::integer2:
+        text = "array of 2 integers";
+        break;
+    case Kind::table:
+        return "table";
+    case Kind::tables:
+        return "tables";
+    }
+    const std::string limits = key.range.text();
+    const bool degrees = key.kind == Kind::quantity && key.dimension == Dimension::angle;
+    return text + (limits.empty() ? "" : ", " + limits + (degrees ? " deg" : ""));
+}
+
+std::string sceneReference() {
+    std::ostringstream out;
+    std::string table = "?";
+    for (const SceneKey& key : sceneKeys()) {
+        if (table != key.table) {
+            out << (table == "?" ? "" : "\n") << "### " << tableTitle(key.table) << "\n\n"
+                << "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
+            table = key.table;
+        }
+        const std::string fallback = key.required()          ? "**required**"
+                                     : *key.fallback == '\0' ? "-"
+                                                             : "`" + std::string(key.fallback) + "`";
+        out << "| `" << key.name << "` | " << describeValue(key) << " | " << fallback << " | " << key.meaning
+            << " |\n";
+    }
+    return out.str();
+}
+
+static_assert(SRS_MAX_TOOLS == 4, "the meaning of [[tool]] names the limit");
+
+} // namespace serosa::sim
