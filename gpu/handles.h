@@ -61,7 +61,8 @@ public:
     GLenum format() const { return format_; }
     int width() const { return width_; }
     int height() const { return height_; }
-    /// Whole image, tightly packed, row 0 first; component type follows the format (float, uint32, uint8).
+    /// Whole image, tightly packed, row 0 first; component type follows the format (float, also for half
+    /// floats and depth; uint8, uint16, uint32, int32).
     void upload(const void* data);
     void download(void* data, std::size_t bytes) const;
     /// Fills with a colour (float formats) / value (integer formats).
@@ -95,8 +96,12 @@ public:
     void attach(GLenum attachment, const Renderbuffer& buffer);
     /// Draws go to colour attachments 0 .. count-1.
     void setDrawBuffers(int count);
-    /// Checked: aborts with the reason when incomplete.
+    /// For reading and drawing, with that viewport. Checked: aborts with the reason when incomplete.
     void bind(int width, int height) const;
+
+private:
+    std::string label_;
+    mutable bool complete_ = false; // checked since the last change of attachments
 };
 
 class VertexArray : public Handle {
@@ -116,7 +121,8 @@ public:
     void indices(const Buffer& buffer); // 32-bit indices
 };
 
-/// Sampler-less query pairs for GPU time. On software GL the time is that of the CPU's rasterizer.
+/// GPU time between begin and end; timers do not nest. On software GL the time is that of the CPU's
+/// rasterizer.
 class GpuTimer : public Handle {
 public:
     GpuTimer() = default;

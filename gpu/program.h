@@ -9,8 +9,10 @@
 #include <glm/glm.hpp>
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,22 +22,39 @@ struct ShaderDefine {
     std::string name, value;
 };
 
-/// Where shader text comes from: the binary, or a folder (hot reload). `#include "name"` is resolved here,
-/// once per file.
+/// A stage's whole source. Files are numbered by #line in the order in which they were first included; 0 is
+/// the stage.
+struct ExpandedShader {
+    struct File {
+        std::string name;
+        std::string text;
+        int includedFrom = -1; // index of the file, -1 for the stage itself
+        int includedAtLine = 0;
+    };
+    std::string source;
+    std::vector<File> files;
+};
+
+/// Where shader text comes from: the binary, or a folder (hot reload). `#include "name"` at the start of a
+/// line is resolved here, once a stage for each file (also when the first one stands in an inactive #if).
 class ShaderLibrary {
 public:
     ShaderLibrary() = default;                            // embedded sources
     explicit ShaderLibrary(std::filesystem::path folder); // files on disk, for editing
-    /// Whole source of a stage after includes and defines, with #line directives. Errors: unknown file or
-    /// include (with file and line of the include), include cycles.
-    Result<std::string> expand(const std::string& name, const std::vector<ShaderDefine>& defines) const;
-    /// Numbered source file names of the last expand, by the source-string number of #line.
+    /// Whole source of a stage after includes and defines (which follow #version), with #line directives.
+    /// Errors: unknown file or include (with file and line of the include), include cycles, a stage without
+    /// #version.
+    Result<ExpandedShader> expand(const std::string& name, const std::vector<ShaderDefine>& defines) const;
     /// The text of one file without expansion.
     Result<std::string> text(const std::string& name) const;
 
 private:
     std::optional<std::filesystem::path> folder_;
 };
+
+/// A compiler's log with the file names instead of source numbers, each error followed by the numbered lines
+/// around it and by the includes that led there. Understands the forms of Mesa, NVIDIA and AMD.
+std::string explainShaderLog(const std::string& log, const ExpandedShader& shader);
 
 /// A linked program. Setters keep values in the program object (DSA); unknown names are SEROSA_CHECKs unless
 /// the compiler removed them (a name that the source never mentions is a broken promise; an inactive one is
@@ -50,9 +69,13 @@ public:
     /// \param stages file names; the suffix (.vert .geom .frag .comp) says the stage.
     /// Errors: compile and link logs with file:line of the shader file or include, and the numbered source
     /// around it.
+    /// \param feedback outputs of the last vertex stage that transform feedback captures, interleaved in this
+    /// order
     static Result<Program> create(const ShaderLibrary& library, const std::vector<std::string>& stages,
-                                  const std::vector<ShaderDefine>& defines = {});
+                                  const std::vector<ShaderDefine>& defines = {},
+                                  const std::vector<std::string>& feedback = {});
 
+    /// The type must be the shader's (int and unsigned also set a bool).
     Program& set(const std::string& name, float value);
     Program& set(const std::string& name, int value);
     Program& set(const std::string& name, unsigned value);
@@ -63,9 +86,11 @@ public:
     Program& set(const std::string& name, const glm::ivec3& value);
     Program& set(const std::string& name, const glm::mat3& value);
     Program& set(const std::string& name, const glm::mat4& value);
-    /// Arrays: name without [0].
+    /// Arrays: name without [0]; every element that the shader uses.
+    Program& set(const std::string& name, std::span<const float> values);
+    Program& set(const std::string& name, std::span<const int> values);
     Program& set(const std::string& name, std::span<const glm::vec4> values);
-    /// Sampler `t_...`: remembers the texture; bound to a unit by use().
+    /// Sampler `t_...`: remembers the texture (which must outlive the draw); bound to a unit by use().
     Program& texture(const std::string& name, const Texture2D& texture);
     /// Image `i_...` (image2D, uimage2D): remembers texture and access; bound by use(). access: GL_READ_ONLY,
     /// ...
@@ -81,11 +106,17 @@ private:
     struct Input { // one active uniform, sampler or image
         GLint location = -1;
         GLenum type = 0;
+        GLint count = 1; // elements of an array
         bool isSet = false;
         int unit = -1;        // samplers and images
         GLuint textureId = 0; // samplers and images
         GLenum imageAccess = 0, imageFormat = 0;
     };
+    /// The input to set, or null for one that the compiler removed; aborts on an unknown name or another
+    /// type.
+    Input* find(const std::string& name, std::initializer_list<GLenum> types, std::size_t count = 1);
+    void listInputs();
+
     std::map<std::string, Input> inputs_;
     std::string name_;   // stages, for messages
     std::string source_; // all stages, to tell an inactive name from an unknown one
