@@ -1,23 +1,26 @@
 #pragma once
-// A scene: what one TOML file of schema 1 says, in SI units (docs/scene.md). Every value but schema, model and
-// length_unit has a default. Lengths carry units in the file ("2.5 mm"); bare numbers where a unit belongs are errors.
+// A scene: what one TOML file of schema 1 says, in SI units (docs/scene.md). Every value but schema, model
+// and length_unit has a default. Lengths carry units in the file ("2.5 mm"); bare numbers where a unit
+// belongs are errors.
+
+#include "base/result.h"
+#include "sim/material.h"
+#include "sim/tool.h"
+#include "sim/triangle_mesh.h"
+
+#include <glm/glm.hpp>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
-
-#include "base/result.h"
-#include "sim/material.h"
-#include "sim/tool.h"
-
 namespace serosa::sim {
 
 struct FixedRegion {
     enum class Shape { halfSpace, box, sphere } shape = Shape::halfSpace;
-    int axis = 1;                     // half-space: 0 x, 1 y, 2 z (`axis = "y"`)
+    int line = 0;                       // of the scene file, for messages; 0: none
+    int axis = 1;                       // half-space: 0 x, 1 y, 2 z (`axis = "y"`)
     std::optional<double> below, above; // half-space: m; exactly one
     glm::dvec3 lowest{0}, highest{0};   // box: `min`, `max`, m
     glm::dvec3 centre{0};               // sphere, m
@@ -25,8 +28,9 @@ struct FixedRegion {
     bool contains(const glm::dvec3& world) const;
 };
 
-/// Procedural pose instead of simulation (figure 6): all nodes follow a bend about the z axis whose radius shrinks from
-/// straight to `radius` over the run: x is the arc length along the bent centre line, which starts level at the organ's middle.
+/// Procedural pose instead of simulation (MS05 figure 6): all nodes follow a bend about the z axis whose
+/// curvature grows from 0 to 1 / `bendRadius` over the run: x is the arc length along the bent centre line,
+/// which starts level at the organ's middle; the ends go down.
 struct Pose {
     double bendRadius = 0; // m
 };
@@ -34,22 +38,24 @@ struct Pose {
 struct Organ {
     std::string name = "organ";
     std::filesystem::path model; // resolved against the scene file's folder
+    int modelLine = 0;           // of the scene file, for messages; 0: none
     double lengthUnit = 0;       // m per file unit
     std::size_t nodes = 20000;
-    double spacing = 0;          // m; 0: by nodes
+    double spacing = 0; // m; 0: by nodes
     Tissue tissue;
     std::vector<FixedRegion> fixed;
-    double fixedLowestShare = 0; // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
+    double fixedLowestShare =
+        0; // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     std::optional<Pose> pose;
 };
 
 enum class Projection { perspective, orthographic };
 struct Camera {
     Projection projection = Projection::perspective;
-    std::optional<glm::dvec3> eye, target; // m; default: framed on the organ
+    std::optional<glm::dvec3> eye, target;  // m; default: framed on the organ
     glm::dvec3 direction{-0.25, -0.15, -1}; // view direction where eye is not given
     glm::dvec3 up{0, 1, 0};
-    double fieldOfView = 0.5;    // rad, vertical ("28.6 deg"), perspective
+    double fieldOfView = 0.5;     // rad, vertical ("28.6 deg"), perspective
     std::optional<double> height; // m, vertical extent, orthographic
     double zoom = 1;              // of the default framing
 };
@@ -69,19 +75,19 @@ struct Look {
 };
 
 struct Output {
-    int width = 960, height = 960; // pixels: size = [960, 960]
-    std::vector<double> surfacesAt; // s
-    int frameEvery = 1;             // every how many frames a picture is written
+    int width = 960, height = 960;       // pixels: size = [960, 960]
+    std::vector<double> surfacesAt;      // s
+    int frameEvery = 1;                  // every how many frames a picture is written
     int sheetColumns = 4, sheetRows = 3; // contact sheet
-    std::vector<double> sheetAt;    // s; empty: evenly spread
+    std::vector<double> sheetAt;         // s; empty: evenly spread
 };
 
 struct Scene {
-    std::filesystem::path file; // empty: made from command line options
-    double frameRate = 60;      // Hz
-    double duration = 2;        // s
+    std::filesystem::path file;      // empty: made from command line options
+    double frameRate = 60;           // Hz
+    double duration = 2;             // s
     glm::dvec3 gravity{0, -9.81, 0}; // m/s2
-    std::vector<Organ> organs;  // exactly one in this version
+    std::vector<Organ> organs;       // exactly one in this version
     std::vector<Tool> tools;
     Camera camera;
     Light light;
@@ -91,14 +97,31 @@ struct Scene {
     int frames() const; // duration * frameRate, rounded; at least 1
 };
 
-/// Reads and checks a scene file. Errors carry file:line:column: syntax, unknown key (with the nearest known one), wrong
-/// type, missing or wrong unit, out of range, missing required key, model file not found.
-Result<Scene> readScene(const std::filesystem::path& file);
+/// One value of a scene, for `serosa scene explain`.
+struct SceneValue {
+    std::string path;    // "organ[0].tissue.young"
+    std::string written; // as in the file; empty where it is the default
+    std::string value;   // in SI units, with the unit
+    int line = 0;        // 0: the default
+};
 
-/// The scene that `serosa run --model FILE --length-unit U` uses: 5 kPa, Poisson 0.25, 1000 kg/m3, 20,000 nodes, 60 Hz,
-/// 120 frames, the lowest 5% fixed, a probe that presses the top by 5% of the size and leaves.
-/// \param lowest, highest bounds of the surface, m.
-Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const glm::dvec3& lowest, const glm::dvec3& highest);
+/// Reads and checks a scene file. Errors carry file:line:column: syntax, unknown key (with the nearest known
+/// one), wrong type, missing or wrong unit, out of range, missing required key, model file not found. \param
+/// explained if not null, receives every value in force, in the order of docs/scene.md.
+Result<Scene> readScene(const std::filesystem::path& file, std::vector<SceneValue>* explained = nullptr);
+
+/// A value that breaks a rule over the whole scene: a time after the end, more frames than can be counted.
+struct SceneProblem {
+    std::string table, key, message; // table: "" or "output"
+};
+/// Whether the scene came from a file or from command line options. Nothing where all rules are kept.
+std::optional<SceneProblem> findSceneProblem(const Scene& scene);
+
+/// The scene that `serosa run --model FILE --length-unit U` uses: 5 kPa, Poisson 0.25, 1000 kg/m3, 20,000
+/// nodes, 60 Hz, 120 frames, the lowest 5% fixed, a probe that presses the top by 5% of the size and leaves.
+/// \param metres the surface in metres (at least one vertex); its top is the vertex nearest to its middle
+/// among those within 2% of the greatest y.
+Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const TriangleMesh& metres);
 
 /// "mm", "cm", "m", "um", "in" in metres. Errors: unknown unit, with a suggestion.
 Result<double> parseLengthUnit(const std::string& text);

@@ -1,0 +1,97 @@
+// What a scene says beyond its file: regions, number of frames, the scene made of a model alone, and rules
+// over all.
+
+#include "sim/scene.h"
+
+#include "base/check.h"
+#include "sim/quantity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace serosa::sim {
+
+namespace {
+constexpr double kMostFrames = 1e6;
+}
+
+bool FixedRegion::contains(const glm::dvec3& world) const {
+    switch (shape) {
+    case Shape::halfSpace:
+        return below ? world[axis] < *below : world[axis] > *above;
+    case Shape::box:
+        return glm::all(glm::greaterThanEqual(world, lowest)) && glm::all(glm::lessThanEqual(world, highest));
+    case Shape::sphere:
+        return glm::distance(world, centre) <= radius;
+    }
+    return false;
+}
+
+int Scene::frames() const {
+    return std::max(1, int(std::lround(std::min(duration * frameRate, kMostFrames))));
+}
+
+std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
+    if (scene.duration * scene.frameRate > kMostFrames)
+        return SceneProblem{"", "duration",
+                            "gives " + formatNumber(scene.duration * scene.frameRate) +
+                                " frames, at most 1e6 are possible: lower duration or frame_rate"};
+    // Half a frame of tolerance: the last frame of a rounded duration may lie before a time that was asked
+    // for.
+    const double end = (scene.frames() + 0.5) / scene.frameRate;
+    const Output& output = scene.output;
+    for (const auto& [key, times] :
+         {std::pair{"surfaces_at", &output.surfacesAt}, std::pair{"sheet_at", &output.sheetAt}})
+        for (const double time : *times)
+            if (time > end)
+                return SceneProblem{"output", key,
+                                    formatQuantity(time, Dimension::time) +
+                                        " is after the end of the run at " +
+                                        formatQuantity(scene.frames() / scene.frameRate, Dimension::time)};
+    const std::size_t places = std::size_t(output.sheetColumns) * std::size_t(output.sheetRows);
+    if (output.sheetAt.size() > places)
+        return SceneProblem{"output", "sheet_at",
+                            "has " + std::to_string(output.sheetAt.size()) +
+                                " times, but the contact sheet has " + std::to_string(places) +
+                                " places: raise sheet_columns or sheet_rows"};
+    return std::nullopt;
+}
+
+Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const TriangleMesh& metres) {
+    SEROSA_CHECK(!metres.positions.empty(), "a default scene needs a surface");
+    const glm::dvec3 lowest = metres.lowest(), highest = metres.highest(), middle = (lowest + highest) / 2.0;
+    const glm::dvec3 extent = highest - lowest;
+    const double size = std::max({extent.x, extent.y, extent.z});
+
+    // The top: of the vertices close to the greatest height, the one nearest to the middle of the organ seen
+    // from above.
+    glm::dvec3 top = middle;
+    double least = -1;
+    for (const glm::dvec3& p : metres.positions) {
+        if (p.y < highest.y - 0.02 * size)
+            continue;
+        const double aside = std::hypot(p.x - middle.x, p.z - middle.z);
+        if (least < 0 || aside < least) {
+            least = aside;
+            top = p;
+        }
+    }
+
+    Scene scene;
+    Organ organ;
+    organ.model = model;
+    organ.name = model.stem().string();
+    organ.lengthUnit = lengthUnit;
+    organ.fixedLowestShare = 0.05;
+    scene.organs.push_back(organ);
+
+    Tool probe;
+    probe.name = "probe";
+    probe.radius = 0.08 * size;
+    const auto at = [&](double height) { return top + glm::dvec3(0, probe.radius + height * size, 0); };
+    probe.keys = {{0.0, at(0.05)}, {0.8, at(-0.05)}, {1.1, at(-0.05)}, {1.5, at(0.1)}};
+    scene.tools.push_back(probe);
+    return scene;
+}
+
+} // namespace serosa::sim

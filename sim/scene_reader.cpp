@@ -1,0 +1,317 @@
+// From a TOML file to a Scene. Every table is read in the order of sim/scene_keys.cpp; rules between keys
+// follow each table.
+
+#include "shaders/shared_constants.h"
+#include "sim/scene_table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <set>
+
+namespace serosa::sim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kLargestSceneFile = 1 << 20; // bytes: a scene is a page of text
+
+Result<std::string> readText(const fs::path& file) {
+    std::error_code code;
+    const fs::file_status status = fs::status(file, code);
+    if (!fs::exists(status))
+        return Error{file.string() + ": no such file" +
+                     (code && code.value() != ENOENT ? " (" + code.message() + ")" : "")};
+    if (!fs::is_regular_file(status))
+        return Error{file.string() + " is not a file: name a scene file (.toml)"};
+    const std::uintmax_t size = fs::file_size(file, code);
+    if (code)
+        return Error{file.string() + ": " + code.message()};
+    if (size > kLargestSceneFile)
+        return Error{file.string() + " has " + std::to_string(size) +
+                     " bytes, more than a scene can have (1 MiB): is it the model?"};
+    std::ifstream stream(file, std::ios::binary);
+    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    if (stream.bad() || text.size() != size)
+        return Error{file.string() + ": cannot be read"};
+    return text;
+}
+
+Status readModel(const SceneTable& table, const fs::path& folder, Organ& organ) {
+    std::string model, unit = "mm"; // both required
+    SEROSA_TRY(table.read("model", model));
+    organ.model = fs::path(model).is_absolute() ? fs::path(model) : folder / model;
+    organ.modelLine = table.lineOf("model");
+    std::error_code code;
+    if (!fs::exists(organ.model, code))
+        return table.errorAt("model", "no such file: " + organ.model.string());
+    if (!fs::is_regular_file(organ.model, code))
+        return table.errorAt("model", organ.model.string() + " is not a file");
+    enum class Unit { first } word = Unit::first;
+    SEROSA_TRY(table.readWord("length_unit", word));
+    SEROSA_ASSIGN(organ.lengthUnit,
+                  parseLengthUnit(findSceneKey("organ", "length_unit")->words[std::size_t(word)]));
+    return {};
+}
+
+Status readTissue(const SceneTable& table, Tissue& tissue) {
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.read("young", tissue.young));
+    SEROSA_TRY(table.read("poisson", tissue.poisson));
+    if (tissue.poisson != 0.25)
+        return table.errorAt(
+            "poisson", "is " + formatNumber(tissue.poisson) +
+                           ", but this version takes 0.25 only: the springs alone give it, and other values "
+                           "need a volumetric term that is not there yet");
+    SEROSA_TRY(table.read("density", tissue.density));
+    SEROSA_TRY(table.read("damping_time", tissue.dampingTime));
+    SEROSA_TRY(table.read("air_drag", tissue.airDrag));
+    return {};
+}
+
+/// The keys that a shape of region takes, required first; others are refused.
+struct ShapeKeys {
+    std::vector<const char*> required, optional;
+};
+const ShapeKeys kShapeKeys[] = {
+    {{}, {"axis", "below", "above"}}, {{"min", "max"}, {}}, {{"centre", "radius"}, {}}, {{"share"}, {}}};
+
+Status readFixed(const SceneTable& table, Organ& organ) {
+    SEROSA_TRY(table.checkKeys());
+    enum class Shape { halfSpace, box, sphere, lowest } shape = Shape::halfSpace;
+    SEROSA_TRY(table.readWord("shape", shape));
+    const std::string shapeName = findSceneKey("organ.fixed", "shape")->words[std::size_t(shape)];
+    const ShapeKeys& allowed = kShapeKeys[int(shape)];
+    for (const std::string& name : keyNames("organ.fixed")) {
+        const auto in = [&name](const std::vector<const char*>& list) {
+            return std::any_of(list.begin(), list.end(), [&name](const char* key) { return name == key; });
+        };
+        if (in(allowed.required) && !table.has(name.c_str()))
+            return table.errorAt("shape", "a " + shapeName + " needs '" + name + "'");
+        if (name != "shape" && table.has(name.c_str()) && !in(allowed.required) && !in(allowed.optional))
+            return table.errorAt(name.c_str(), "does not belong to shape \"" + shapeName + "\"");
+    }
+
+    FixedRegion region;
+    region.line = table.lineOf("shape");
+    switch (shape) {
+    case Shape::lowest:
+        if (organ.fixedLowestShare > 0)
+            return table.errorAt("shape", "a second region \"lowest\" of one organ: keep one");
+        return table.read("share", organ.fixedLowestShare);
+    case Shape::halfSpace: {
+        region.shape = FixedRegion::Shape::halfSpace;
+        enum class Axis { x, y, z } axis = Axis::y;
+        SEROSA_TRY(table.readWord("axis", axis));
+        region.axis = int(axis);
+        SEROSA_TRY(table.read("below", region.below));
+        SEROSA_TRY(table.read("above", region.above));
+        if (region.below.has_value() == region.above.has_value())
+            return table.errorAt("shape", "a half-space needs 'below' or 'above', not " +
+                                              std::string(region.below ? "both" : "neither"));
+        break;
+    }
+    case Shape::box:
+        region.shape = FixedRegion::Shape::box;
+        SEROSA_TRY(table.read("min", region.lowest));
+        SEROSA_TRY(table.read("max", region.highest));
+        if (!glm::all(glm::lessThan(region.lowest, region.highest)))
+            return table.errorAt("max", "is not greater than 'min' along every axis");
+        break;
+    case Shape::sphere:
+        region.shape = FixedRegion::Shape::sphere;
+        SEROSA_TRY(table.read("centre", region.centre));
+        SEROSA_TRY(table.read("radius", region.radius));
+        break;
+    }
+    organ.fixed.push_back(region);
+    return {};
+}
+
+Status readOrgan(const SceneSource& source, const toml::table& content, const std::string& path,
+                 const fs::path& folder, Organ& organ) {
+    const SceneTable table(source, "organ", path, &content);
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.read("name", organ.name));
+    SEROSA_TRY(readModel(table, folder, organ));
+    if (table.has("nodes") && table.has("spacing"))
+        return table.errorAt("spacing", "stands beside 'nodes': keep one of the two");
+    if (table.has("spacing"))
+        SEROSA_TRY(table.read("spacing", organ.spacing));
+    else
+        SEROSA_TRY(table.read("nodes", organ.nodes));
+
+    SEROSA_ASSIGN(const toml::table* tissue, table.table("tissue"));
+    SEROSA_TRY(readTissue({source, "organ.tissue", path + ".tissue", tissue}, organ.tissue));
+    SEROSA_ASSIGN(const auto regions, table.tables("fixed"));
+    for (std::size_t i = 0; i < regions.size(); ++i)
+        SEROSA_TRY(readFixed({source, "organ.fixed", path + ".fixed[" + std::to_string(i) + "]", regions[i]},
+                             organ));
+    SEROSA_ASSIGN(const toml::table* pose, table.table("pose"));
+    if (pose) {
+        const SceneTable poseTable(source, "organ.pose", path + ".pose", pose);
+        SEROSA_TRY(poseTable.checkKeys());
+        organ.pose.emplace();
+        SEROSA_TRY(poseTable.read("bend_radius", organ.pose->bendRadius));
+    }
+    return {};
+}
+
+Status readTool(const SceneSource& source, const toml::table& content, std::size_t index, Tool& tool) {
+    const std::string path = "tool[" + std::to_string(index) + "]";
+    const SceneTable table(source, "tool", path, &content);
+    SEROSA_TRY(table.checkKeys());
+    tool.name = "tool " + std::to_string(index + 1);
+    SEROSA_TRY(table.read("name", tool.name));
+    enum class Kind { sphere } kind = Kind::sphere;
+    SEROSA_TRY(table.readWord("kind", kind));
+    SEROSA_TRY(table.read("radius", tool.radius));
+    SEROSA_TRY(table.readWord("mode", tool.mode));
+    SEROSA_ASSIGN(const auto keys, table.tables("keys"));
+    if (keys.size() < (tool.mode == ToolMode::grasp ? 2u : 1u))
+        return table.errorAt("keys", tool.mode == ToolMode::grasp
+                                         ? "a grasp needs at least two: take hold, and let go"
+                                         : "needs at least one");
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const SceneTable keyTable(source, "tool.keys", path + ".keys[" + std::to_string(i) + "]", keys[i]);
+        SEROSA_TRY(keyTable.checkKeys());
+        ToolKey key{0, glm::dvec3(0)};
+        SEROSA_TRY(keyTable.read("t", key.time));
+        SEROSA_TRY(keyTable.read("at", key.at));
+        if (!tool.keys.empty() && key.time <= tool.keys.back().time)
+            return keyTable.errorAt("t", "is not after the key before it: times must increase");
+        tool.keys.push_back(key);
+    }
+    return {};
+}
+
+Status readCamera(const SceneTable& table, Camera& camera) {
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.readWord("projection", camera.projection));
+    SEROSA_TRY(table.read("eye", camera.eye));
+    SEROSA_TRY(table.read("target", camera.target));
+    SEROSA_TRY(table.read("direction", camera.direction));
+    SEROSA_TRY(table.read("up", camera.up));
+    SEROSA_TRY(table.read("fov", camera.fieldOfView));
+    SEROSA_TRY(table.read("height", camera.height));
+    SEROSA_TRY(table.read("zoom", camera.zoom));
+    const bool perspective = camera.projection == Projection::perspective;
+    if (perspective && camera.height)
+        return table.errorAt("height", "belongs to an orthographic camera; a perspective one takes 'fov'");
+    if (!perspective && table.has("fov"))
+        return table.errorAt("fov", "belongs to a perspective camera; an orthographic one takes 'height'");
+    if (camera.eye && table.has("direction"))
+        return table.errorAt("direction", "has no effect beside 'eye': keep one of the two");
+    if (table.has("zoom") && ((camera.eye && perspective) || camera.height))
+        return table.errorAt("zoom", "has no effect beside 'eye' or 'height': remove it");
+    if (camera.eye && camera.target && glm::distance(*camera.eye, *camera.target) < 1e-9)
+        return table.errorAt("target", "is where 'eye' is");
+    const glm::dvec3 view = camera.eye && camera.target ? *camera.target - *camera.eye : camera.direction;
+    if (glm::length(camera.direction) < 1e-9)
+        return table.errorAt("direction", "has no length");
+    if (glm::length(camera.up) < 1e-9)
+        return table.errorAt("up", "has no length");
+    if ((!camera.eye || camera.target) &&
+        glm::length(glm::cross(glm::normalize(view), glm::normalize(camera.up))) < 1e-6)
+        return table.errorAt("up", "is along the view direction");
+    return {};
+}
+
+Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& scene) {
+    SEROSA_TRY(light.checkKeys());
+    SEROSA_TRY(light.read("direction", scene.light.direction));
+    SEROSA_TRY(light.read("intensity", scene.light.intensity));
+    SEROSA_TRY(light.read("ambient", scene.light.ambient));
+    if (glm::length(scene.light.direction) < 1e-9)
+        return light.errorAt("direction", "has no length");
+    SEROSA_TRY(look.checkKeys());
+    SEROSA_TRY(look.readWord("mapping", scene.look.mapping));
+    SEROSA_TRY(look.readWord("colour", scene.look.colour));
+    SEROSA_TRY(look.read("surface", scene.look.surface));
+    SEROSA_TRY(look.read("lattice", scene.look.lattice));
+    SEROSA_TRY(look.read("tools", scene.look.tools));
+    return {};
+}
+
+Status readOutput(const SceneTable& table, Scene& scene) {
+    SEROSA_TRY(table.checkKeys());
+    Output& output = scene.output;
+    glm::ivec2 size(output.width, output.height);
+    SEROSA_TRY(table.read("size", size));
+    output.width = size.x;
+    output.height = size.y;
+    SEROSA_TRY(table.read("surfaces_at", output.surfacesAt));
+    SEROSA_TRY(table.read("frame_every", output.frameEvery));
+    SEROSA_TRY(table.read("sheet_columns", output.sheetColumns));
+    SEROSA_TRY(table.read("sheet_rows", output.sheetRows));
+    SEROSA_TRY(table.read("sheet_at", output.sheetAt));
+    return {};
+}
+
+Status readAll(const SceneSource& source, const toml::table& content, const fs::path& folder, Scene& scene) {
+    const SceneTable top(source, "", "", &content);
+    // The version first: a file of another one would fail on its keys, with a message that misleads.
+    if (!top.has("schema"))
+        return sceneError(source.name, {1, 1}, "required key 'schema' is missing: write schema = 1 first");
+    int schema = 1;
+    SEROSA_TRY(top.read("schema", schema));
+    SEROSA_TRY(top.checkKeys());
+    SEROSA_TRY(top.read("frame_rate", scene.frameRate));
+    SEROSA_TRY(top.read("duration", scene.duration));
+    SEROSA_TRY(top.read("gravity", scene.gravity));
+
+    SEROSA_ASSIGN(const auto organs, top.tables("organ"));
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        Organ organ;
+        SEROSA_TRY(readOrgan(source, *organs[i], "organ[" + std::to_string(i) + "]", folder, organ));
+        if (!names.insert(organ.name).second)
+            return SceneTable(source, "organ", "organ[" + std::to_string(i) + "]", organs[i])
+                .errorAt("name", inQuotes(organ.name) + " is the name of another organ already: name each");
+        scene.organs.push_back(std::move(organ));
+    }
+    if (scene.organs.size() != 1)
+        return top.errorAt("organ", "the scene has " + std::to_string(scene.organs.size()) +
+                                        " organs; this version takes exactly one");
+
+    SEROSA_ASSIGN(const auto tools, top.tables("tool"));
+    if (tools.size() > SRS_MAX_TOOLS)
+        return top.errorAt("tool", "the scene has " + std::to_string(tools.size()) + " tools, at most " +
+                                       std::to_string(SRS_MAX_TOOLS) + " are possible");
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        Tool tool;
+        SEROSA_TRY(readTool(source, *tools[i], i, tool));
+        scene.tools.push_back(std::move(tool));
+    }
+    SEROSA_ASSIGN(const toml::table* camera, top.table("camera"));
+    SEROSA_TRY(readCamera({source, "camera", "camera", camera}, scene.camera));
+    SEROSA_ASSIGN(const toml::table* light, top.table("light"));
+    SEROSA_ASSIGN(const toml::table* look, top.table("look"));
+    SEROSA_TRY(readLightAndLook({source, "light", "light", light}, {source, "look", "look", look}, scene));
+    SEROSA_ASSIGN(const toml::table* outputTable, top.table("output"));
+    const SceneTable output(source, "output", "output", outputTable);
+    SEROSA_TRY(readOutput(output, scene));
+    if (const auto problem = findSceneProblem(scene))
+        return (problem->table.empty() ? top : output).errorAt(problem->key.c_str(), problem->message);
+    return {};
+}
+
+} // namespace
+
+Result<Scene> readScene(const fs::path& file, std::vector<SceneValue>* explained) {
+    SEROSA_ASSIGN(const std::string text, readText(file));
+    const SceneSource source{file.string(), explained};
+    toml::table content;
+    try {
+        content = toml::parse(std::string_view(text), source.name);
+    } catch (const toml::parse_error& problem) {
+        return sceneError(source.name, problem.source().begin, std::string(problem.description()));
+    }
+    Scene scene;
+    scene.file = file;
+    SEROSA_TRY(readAll(source, content, file.parent_path(), scene));
+    return scene;
+}
+
+} // namespace serosa::sim
