@@ -10,8 +10,8 @@ namespace serosa {
 
 } // namespace serosa
 
-#define SEROSA_CHECK(condition, message)                                                                       \
-    do {                                                                                                       \
-        if (!(condition))                                                                                      \
-            ::serosa::checkFailed(__FILE__, __LINE__, #condition, (message));                                  \
+#define SEROSA_CHECK(condition, message)                                                                     \
+    do {                                                                                                     \
+        if (!(condition))                                                                                    \
+            ::serosa::checkFailed(__FILE__, __LINE__, #condition, (message));                                \
     } while (false)

@@ -1,19 +1,27 @@
 #pragma once
-// The one must-use result type for bad input (a broken promise inside the code is SEROSA_CHECK, base/check.h).
+// The one must-use result type for bad input (a broken promise inside the code is SEROSA_CHECK,
+// base/check.h).
 //
-// An Error is one line that says file, line and column (or byte), what is wrong and what to do. `serosa` prints it to
-// stderr and exits with its code (ARCHITECTURE.md, exit codes).
+// An Error is one line that says file, line and column (or byte), what is wrong and what to do. `serosa`
+// prints it to stderr and exits with its code (ARCHITECTURE.md, exit codes).
+
+#include "base/check.h"
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
-#include "base/check.h"
-
 namespace serosa {
 
-enum ExitCode : int { exitOk = 0, exitCheckFailed = 1, exitBadInput = 2, exitChildFailed = 3, exitNoBaseline = 4, exitNoGl = 5 };
+enum ExitCode : int {
+    exitOk = 0,
+    exitCheckFailed = 1,
+    exitBadInput = 2,
+    exitChildFailed = 3,
+    exitNoBaseline = 4,
+    exitNoGl = 5
+};
 
 struct Error {
     std::string message;
@@ -76,17 +84,17 @@ private:
 } // namespace serosa
 
 /// Returns the error of `expression` (a Status or Result) from the current function, if it has one.
-#define SEROSA_TRY(expression)                                                                                 \
-    do {                                                                                                       \
-        if (auto serosaTry_ = (expression); !serosaTry_.ok())                                                  \
-            return serosaTry_.error();                                                                         \
+#define SEROSA_TRY(expression)                                                                               \
+    do {                                                                                                     \
+        if (auto serosaTry_ = (expression); !serosaTry_.ok())                                                \
+            return serosaTry_.error();                                                                       \
     } while (false)
 
 #define SEROSA_CONCAT_(a, b) a##b
 #define SEROSA_CONCAT(a, b) SEROSA_CONCAT_(a, b)
 /// `SEROSA_ASSIGN(auto mesh, readMesh(path));` declares `mesh`, or returns the error.
-#define SEROSA_ASSIGN(declaration, expression)                                                                 \
-    auto SEROSA_CONCAT(serosaResult_, __LINE__) = (expression);                                                \
-    if (!SEROSA_CONCAT(serosaResult_, __LINE__).ok())                                                          \
-        return SEROSA_CONCAT(serosaResult_, __LINE__).error();                                                 \
+#define SEROSA_ASSIGN(declaration, expression)                                                               \
+    auto SEROSA_CONCAT(serosaResult_, __LINE__) = (expression);                                              \
+    if (!SEROSA_CONCAT(serosaResult_, __LINE__).ok())                                                        \
+        return SEROSA_CONCAT(serosaResult_, __LINE__).error();                                               \
     declaration = std::move(SEROSA_CONCAT(serosaResult_, __LINE__)).value()

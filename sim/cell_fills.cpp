@@ -1,7 +1,8 @@
-// The inside's indicator along a line in x is the sum of the signs of the crossings at smaller x (+1 where the line
-// enters). So a piece of surface whose signed yz-area is a and whose mean x is c fills its own cell [x0, x0+1] by
-// a (x0 + 1 - c) and each cell at larger x by a. Each triangle is clipped to the cells it crosses; a running sum along
-// each row of cells gives the fills, exact up to rounding for any closed surface (divergence theorem for the field (x, 0, 0)).
+// The inside's indicator along a line in x is the sum of the signs of the crossings at smaller x (+1 where
+// the line enters). So a piece of surface whose signed yz-area is a and whose mean x is c fills its own cell
+// [x0, x0+1] by a (x0 + 1 - c) and each cell at larger x by a. Each triangle is clipped to the cells it
+// crosses; a running sum along each row of cells gives the fills, exact up to rounding for any closed surface
+// (divergence theorem for the field (x, 0, 0)).
 #include "sim/cell_fills.h"
 
 #include <algorithm>
@@ -71,11 +72,13 @@ std::vector<double> cellFills(const TriangleMesh& metres, const CellGrid& grid) 
     for (const glm::uvec3& face : metres.faces) {
         Polygon triangle;
         for (int corner = 0; corner < 3; ++corner)
-            triangle.push(glm::clamp((metres.positions[face[corner]] - grid.origin) / grid.spacing, glm::dvec3(0), top));
+            triangle.push(glm::clamp((metres.positions[face[corner]] - grid.origin) / grid.spacing,
+                                     glm::dvec3(0), top));
         const glm::dvec3 doubleArea = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
         if (doubleArea.x == 0)
             continue;
-        const double sign = doubleArea.x < 0 ? 1 : -1; // entering along +x where the outward normal points to -x
+        const double sign =
+            doubleArea.x < 0 ? 1 : -1; // entering along +x where the outward normal points to -x
         const glm::ivec2 zRange = slabRange(triangle, 2, grid.dims.z);
         for (int z = zRange.x; z <= zRange.y; ++z) {
             const Polygon inZ = zRange.x == zRange.y ? triangle : clipToSlab(triangle, 2, z);

@@ -1,11 +1,11 @@
 #pragma once
 // Exact shares of a closed surface's inside in the cells of a regular grid.
 
-#include <vector>
+#include "sim/triangle_mesh.h"
 
 #include <glm/glm.hpp>
 
-#include "sim/triangle_mesh.h"
+#include <vector>
 
 namespace serosa::sim {
 
@@ -21,13 +21,13 @@ struct CellGrid {
     }
 };
 
-/// The smallest grid of cells of `spacing` around the bounds of a surface, centred on it. Extents that are a whole
-/// number of cells (to 1e-6 of one) get just that many.
+/// The smallest grid of cells of `spacing` around the bounds of a surface, centred on it. Extents that are a
+/// whole number of cells (to 1e-6 of one) get just that many.
 CellGrid gridAround(const glm::dvec3& lowest, const glm::dvec3& highest, double spacing);
 
-/// Share of each cell's volume inside the surface, 0 .. 1, index as CellGrid::index. `metres` is closed and wound
-/// outward, and lies inside the grid (points up to rounding outside are moved to its border). Nested cavities count as
-/// outside; where the surface crosses itself the winding number is clamped to 0 .. 1.
+/// Share of each cell's volume inside the surface, 0 .. 1, index as CellGrid::index. `metres` is closed and
+/// wound outward, and lies inside the grid (points up to rounding outside are moved to its border). Nested
+/// cavities count as outside; where the surface crosses itself the winding number is clamped to 0 .. 1.
 std::vector<double> cellFills(const TriangleMesh& metres, const CellGrid& grid);
 
 } // namespace serosa::sim

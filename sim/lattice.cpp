@@ -1,24 +1,41 @@
-// Lattice topology from a set of filled cells: nodes, the 18 connections, fills and the boundary (MS05 3.1; the cells
-// instead of the nodes are material, see sim/lattice.h).
+// Lattice topology from a set of filled cells: nodes, the 18 connections, fills and the boundary (MS05 3.1;
+// the cells instead of the nodes are material, see sim/lattice.h).
 #include "sim/lattice.h"
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 
 namespace serosa::sim {
 
-const std::array<glm::ivec3, 18> kNeighbourOffsets = {{{1, 0, 0},  {-1, 0, 0},  {0, 1, 0},  {0, -1, 0},  {0, 0, 1},
-                                                       {0, 0, -1}, {1, 1, 0},   {-1, -1, 0}, {1, -1, 0}, {-1, 1, 0},
-                                                       {1, 0, 1},  {-1, 0, -1}, {1, 0, -1}, {-1, 0, 1},  {0, 1, 1},
-                                                       {0, -1, -1}, {0, 1, -1}, {0, -1, 1}}};
+const std::array<glm::ivec3, 18> kNeighbourOffsets = {{{1, 0, 0},
+                                                       {-1, 0, 0},
+                                                       {0, 1, 0},
+                                                       {0, -1, 0},
+                                                       {0, 0, 1},
+                                                       {0, 0, -1},
+                                                       {1, 1, 0},
+                                                       {-1, -1, 0},
+                                                       {1, -1, 0},
+                                                       {-1, 1, 0},
+                                                       {1, 0, 1},
+                                                       {-1, 0, -1},
+                                                       {1, 0, -1},
+                                                       {-1, 0, 1},
+                                                       {0, 1, 1},
+                                                       {0, -1, -1},
+                                                       {0, 1, -1},
+                                                       {0, -1, 1}}};
 
 namespace {
 
 std::size_t gridIndex(const glm::ivec3& p, const glm::ivec3& dims) {
-    return (std::size_t(p.z) * std::size_t(dims.y) + std::size_t(p.y)) * std::size_t(dims.x) + std::size_t(p.x);
+    return (std::size_t(p.z) * std::size_t(dims.y) + std::size_t(p.y)) * std::size_t(dims.x) +
+           std::size_t(p.x);
 }
 
-glm::ivec3 cornerOffset(int corner) { return {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1}; }
+glm::ivec3 cornerOffset(int corner) {
+    return {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
+}
 
 /// Does the cell in octant `octant` around a node hold the neighbour at `offset` too?
 bool octantHolds(int octant, const glm::ivec3& offset) {
@@ -39,7 +56,8 @@ void addBoundary(Lattice& lattice, const std::vector<std::uint8_t>& fillOfCell) 
             const bool inGrid = next[axis] >= 0 && next[axis] < cellDims[axis];
             if (inGrid && fillOfCell[gridIndex(next, cellDims)] > 0)
                 continue;
-            // Corners counter-clockwise seen from outside: u, v follow axis cyclically; mirrored on the low side.
+            // Corners counter-clockwise seen from outside: u, v follow axis cyclically; mirrored on the low
+            // side.
             const int u = (axis + 1) % 3, v = (axis + 2) % 3;
             std::array<std::uint32_t, 4> quad;
             const std::array<glm::ivec2, 4> ring = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
@@ -100,7 +118,8 @@ Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const g
     lattice.spacing = spacing;
     lattice.nodeDims = high - low + 2;
     lattice.centre = lattice.nodeDims / 2;
-    // `origin` is where grid point (0, 0, 0) of the given cells lies; the lattice's own origin is its centre node.
+    // `origin` is where grid point (0, 0, 0) of the given cells lies; the lattice's own origin is its centre
+    // node.
     lattice.origin = origin + spacing * glm::dvec3(low + lattice.centre);
     for (LatticeCell& cell : cells)
         cell.grid -= low;
@@ -109,9 +128,11 @@ Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const g
     });
 
     const glm::ivec3 cellDims = lattice.nodeDims - 1;
-    std::vector<std::uint8_t> fillOfCell(std::size_t(cellDims.x) * std::size_t(cellDims.y) * std::size_t(cellDims.z), 0);
-    lattice.nodeOfGrid.assign(
-        std::size_t(lattice.nodeDims.x) * std::size_t(lattice.nodeDims.y) * std::size_t(lattice.nodeDims.z), -1);
+    std::vector<std::uint8_t> fillOfCell(
+        std::size_t(cellDims.x) * std::size_t(cellDims.y) * std::size_t(cellDims.z), 0);
+    lattice.nodeOfGrid.assign(std::size_t(lattice.nodeDims.x) * std::size_t(lattice.nodeDims.y) *
+                                  std::size_t(lattice.nodeDims.z),
+                              -1);
     for (const LatticeCell& cell : cells) {
         std::uint8_t& fill = fillOfCell[gridIndex(cell.grid, cellDims)];
         SEROSA_CHECK(cell.fill > 0 && fill == 0, "cells have a fill and are given once");

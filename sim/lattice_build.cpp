@@ -1,12 +1,12 @@
 // A lattice from a closed surface: the spacing that gives a wanted number of nodes, memory limits, and fills.
+#include "sim/cell_fills.h"
+#include "sim/lattice.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <string>
-
-#include "sim/cell_fills.h"
-#include "sim/lattice.h"
 
 namespace serosa::sim {
 
@@ -14,7 +14,8 @@ namespace {
 
 // A cell that is filled by less is not touched but for rounding.
 constexpr double kLeastFill = 1e-6;
-// Host and texture bytes, generously: a cell of the box while building; a node with its textures, twice buffered.
+// Host and texture bytes, generously: a cell of the box while building; a node with its textures, twice
+// buffered.
 constexpr double kBytesPerBoxCell = 24, kBytesPerNode = 360;
 
 double availableBytes() {
@@ -38,7 +39,8 @@ std::string decimal(double value, int digits) {
 /// Lower bound of the bytes that a spacing needs, before anything is allocated.
 double bytesNeeded(const glm::dvec3& extent, double volume, double spacing) {
     const glm::dvec3 cells = glm::max(extent / spacing, glm::dvec3(1));
-    return cells.x * cells.y * cells.z * kBytesPerBoxCell + volume / (spacing * spacing * spacing) * kBytesPerNode;
+    return cells.x * cells.y * cells.z * kBytesPerBoxCell +
+           volume / (spacing * spacing * spacing) * kBytesPerNode;
 }
 
 /// Fills of the smallest grid around the surface.
@@ -71,7 +73,8 @@ std::size_t countNodes(const Filled& filled) {
     return std::size_t(std::count(used.begin(), used.end(), true));
 }
 
-Status checkMemory(const glm::dvec3& extent, double volume, double spacing, double maxBytes, const std::string& asked) {
+Status checkMemory(const glm::dvec3& extent, double volume, double spacing, double maxBytes,
+                   const std::string& asked) {
     const double needed = bytesNeeded(extent, volume, spacing);
     if (needed <= maxBytes)
         return {};
@@ -83,10 +86,10 @@ Status checkMemory(const glm::dvec3& extent, double volume, double spacing, doub
                  decimal(fits * 1e3, 3) + " mm"};
 }
 
-/// The spacing whose node count is closest to `wanted`: counts fall about with the cube of the spacing, so a few
-/// multiplicative steps come close, and the best one seen is taken.
-Result<Filled> fillForNodes(const TriangleMesh& metres, const glm::dvec3& low, const glm::dvec3& high, double volume,
-                            std::size_t wanted, double maxBytes) {
+/// The spacing whose node count is closest to `wanted`: counts fall about with the cube of the spacing, so a
+/// few multiplicative steps come close, and the best one seen is taken.
+Result<Filled> fillForNodes(const TriangleMesh& metres, const glm::dvec3& low, const glm::dvec3& high,
+                            double volume, std::size_t wanted, double maxBytes) {
     double spacing = std::cbrt(std::max(volume, 1e-30) / double(wanted)) * 1.3;
     const double longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     double tooFine = 0, tooCoarse = 0; // spacings with more and with fewer nodes than wanted
@@ -110,7 +113,8 @@ Result<Filled> fillForNodes(const TriangleMesh& metres, const glm::dvec3& low, c
         const double low2 = std::min(tooFine, tooCoarse), high2 = std::max(tooFine, tooCoarse);
         if (bracketed && high2 / low2 < 1 + 1e-5)
             break;
-        spacing = bracketed && (guess <= low2 || guess >= high2 || attempt % 3 == 2) ? std::sqrt(low2 * high2) : guess;
+        spacing = bracketed && (guess <= low2 || guess >= high2 || attempt % 3 == 2) ? std::sqrt(low2 * high2)
+                                                                                     : guess;
     }
     return best;
 }
@@ -145,7 +149,8 @@ Result<Lattice> buildLattice(const TriangleMesh& metres, const LatticeRequest& r
                     cells.push_back({{x, y, z}, std::uint8_t(std::max(1.0, std::floor(fill * 255 + 0.5)))});
             }
     if (cells.empty())
-        return Error{"the surface has no inside at a spacing of " + decimal(filled.grid.spacing * 1e3, 3) + " mm"};
+        return Error{"the surface has no inside at a spacing of " + decimal(filled.grid.spacing * 1e3, 3) +
+                     " mm"};
     Lattice lattice = latticeFromCells(std::move(cells), filled.grid.spacing, filled.grid.origin);
     lattice.exactVolume = volume;
     return lattice;

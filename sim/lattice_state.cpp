@@ -1,12 +1,12 @@
 // Rest states and hashes of states.
 #include "sim/lattice_state.h"
 
-#include <cstdio>
+#include "sim/packed_normal.h"
+#include "sim/solver.h"
 
 #include <xxhash.h>
 
-#include "sim/packed_normal.h"
-#include "sim/solver.h"
+#include <cstdio>
 
 namespace serosa::sim {
 

@@ -1,20 +1,20 @@
 #pragma once
 // What moves: positions and increments in lattice units (sim/lattice.h), and its hash.
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 namespace serosa::sim {
 
 struct LatticeState {
-    std::int64_t step = 0;               // steps taken since rest; time = step * time step
-    std::vector<glm::dvec3> positions;   // lattice units, one a node
-    std::vector<glm::dvec3> increments;  // x_n - x_(n-1), lattice units
-    std::vector<std::uint32_t> normals;  // packed (sim/packed_normal.h)
-    std::vector<std::uint32_t> heldBy;   // 0 free, 1 + tool index
+    std::int64_t step = 0;              // steps taken since rest; time = step * time step
+    std::vector<glm::dvec3> positions;  // lattice units, one a node
+    std::vector<glm::dvec3> increments; // x_n - x_(n-1), lattice units
+    std::vector<std::uint32_t> normals; // packed (sim/packed_normal.h)
+    std::vector<std::uint32_t> heldBy;  // 0 free, 1 + tool index
 
     /// 128-bit hash (XXH3, hex) of the float32 values: equal for byte-equal snapshots of the GPU state.
     std::string hash() const;

@@ -1,11 +1,11 @@
-// The oracle: MS05 eq. 1 in double precision with plain loops, one node after another. What a step does stands in
-// sim/solver.h; the fragment solver's twin is shaders/solver_kernel.glsl.
-#include <cmath>
-
+// The oracle: MS05 eq. 1 in double precision with plain loops, one node after another. What a step does
+// stands in sim/solver.h; the fragment solver's twin is shaders/solver_kernel.glsl.
 #include "shaders/shared_constants.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
 #include "sim/tool_motion.h"
+
+#include <cmath>
 
 namespace serosa::sim {
 
@@ -49,7 +49,8 @@ public:
     std::vector<glm::dvec3> takeToolImpulses() override {
         std::vector<glm::dvec3> taken(setup_.tools.size(), glm::dvec3(0));
         // From lattice units a step to N s: mass h / dt.
-        const double unit = setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
+        const double unit =
+            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
         for (std::size_t tool = 0; tool < taken.size(); ++tool)
             taken[tool] = impulses_[tool] * unit;
         impulses_.assign(setup_.tools.size(), glm::dvec3(0));
@@ -81,7 +82,8 @@ private:
                 const double length = std::max(glm::length(d), 1e-6);
                 const glm::dvec3 unit = d / length;
                 normal += unit;
-                force += weights_[slot] * ((rest - length) * unit - damping * glm::dot(unit, u[node] - u[other]) * unit);
+                force += weights_[slot] *
+                         ((rest - length) * unit - damping * glm::dot(unit, u[node] - u[other]) * unit);
             }
             next.normals[node] = packNormal(glm::vec3(normal));
             if (setup_.fixed[node]) {
@@ -126,13 +128,15 @@ Energies energies(const SolverSetup& setup, const LatticeState& state) {
         const double mass = m * lattice.massShare(node);
         const glm::dvec3 velocity = state.increments[node] * (h / setup.timeStep);
         sum.kinetic += 0.5 * mass * glm::dot(velocity, velocity);
-        sum.gravitational -= mass * glm::dot(setup.gravity, h * (state.positions[node] - lattice.restPosition(node)));
+        sum.gravitational -=
+            mass * glm::dot(setup.gravity, h * (state.positions[node] - lattice.restPosition(node)));
         for (int d = 0; d < SRS_NEIGHBOURS; d += 2) {
             const std::int64_t other = lattice.neighbour(node, d);
             if (other < 0)
                 continue;
             const double rest = d < 6 ? 1.0 : std::sqrt(2.0);
-            const double stretch = glm::length(state.positions[node] - state.positions[std::size_t(other)]) - rest;
+            const double stretch =
+                glm::length(state.positions[node] - state.positions[std::size_t(other)]) - rest;
             sum.elastic += 0.5 * k * lattice.springWeight(node, d) * stretch * stretch * h * h;
         }
     }

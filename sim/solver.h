@@ -1,33 +1,36 @@
 #pragma once
-// One interface for all solvers of the spring lattice: `reference` (CPU, double: the oracle) and `fragment` (MS05's way).
+// One interface for all solvers of the spring lattice: `reference` (CPU, double: the oracle) and `fragment`
+// (MS05's way).
 //
 // A step, for a node of mass share m = sum(f)/8 and spring weights w (sim/lattice.h), in lattice units:
-//   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full constant)
+//   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full
+//   constant)
 //      - dampingTime/dt sum_j w_ij n (n . (u_i - u_j)),  n = d/|d|          (along springs, u the increments)
 //   u' = (1 - airDrag dt) u + dt^2 (k/(rho h^3) F/m + g/h)
 //   x' = x + u';  then tools: x' is moved out of a pushing sphere or with a grasping one, and u' = x' - x.
-
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
 #include "sim/material.h"
 #include "sim/tool.h"
 
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace serosa::sim {
 
 class StateTextures; // sim/state_textures.h
 
-/// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its lifetime.
+/// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its
+/// lifetime.
 struct SolverSetup {
     const Lattice* lattice = nullptr; // not null; outlives the solver
     Tissue tissue;
-    glm::dvec3 gravity{0};            // m/s2
-    double timeStep = 0;              // s
-    std::vector<bool> fixed;          // one a node; empty: none
-    std::vector<Tool> tools;          // at most SRS_MAX_TOOLS
+    glm::dvec3 gravity{0};   // m/s2
+    double timeStep = 0;     // s
+    std::vector<bool> fixed; // one a node; empty: none
+    std::vector<Tool> tools; // at most SRS_MAX_TOOLS
 };
 
 class Solver {
@@ -59,13 +62,15 @@ LatticeState restState(const Lattice& lattice);
 std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
 
 struct FragmentOptions {
-    int layout = -1;         // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
-    bool normals = true;     // write eq. 3 into alpha (benchmarks switch it off)
-    bool printedForm = true; // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
+    int layout = -1;            // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
+    bool normals = true;        // write eq. 3 into alpha (benchmarks switch it off)
+    bool printedForm = true;    // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
     bool useTexelFetch = false; // texelFetch instead of imageLoad
 };
-/// Needs a current GL context. Errors: the lattice does not fit the context's textures (says the limit), shader errors.
-Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup, const FragmentOptions& options = {});
+/// Needs a current GL context. Errors: the lattice does not fit the context's textures (says the limit),
+/// shader errors.
+Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup,
+                                                   const FragmentOptions& options = {});
 
 /// How the time step was computed, for the summary.
 struct StableStep {
@@ -74,7 +79,7 @@ struct StableStep {
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used
     int stepsPerFrame = 0;
-    double timeStep = 0;      // s: frame time / stepsPerFrame
+    double timeStep = 0; // s: frame time / stepsPerFrame
 };
 /// Largest stable explicit step for a frame of `frameTime` seconds.
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime);

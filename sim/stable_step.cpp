@@ -1,10 +1,10 @@
-// The largest stable explicit step (ARCHITECTURE.md, stability). The stiffest rate omega^2 of M^-1 K on the rest lattice
-// comes from power iteration. No cell assembly exceeds its stiffest lone cell (20 k/m), the endless lattice has 12 k/m:
-// the estimate is kept between the two.
+// The largest stable explicit step (ARCHITECTURE.md, stability). The stiffest rate omega^2 of M^-1 K on the
+// rest lattice comes from power iteration. No cell assembly exceeds its stiffest lone cell (20 k/m), the
+// endless lattice has 12 k/m: the estimate is kept between the two.
+#include "sim/solver.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "sim/solver.h"
 
 namespace serosa::sim {
 
@@ -57,7 +57,8 @@ double stiffestShare(const Lattice& lattice) {
         std::fill(force.begin(), force.end(), glm::dvec3(0));
         for (std::size_t s = 0; s < springs.first.size(); ++s) {
             const glm::dvec3& n = springs.direction[s];
-            const glm::dvec3 pull = springs.weight[s] * glm::dot(n, mode[springs.first[s]] - mode[springs.second[s]]) * n;
+            const glm::dvec3 pull =
+                springs.weight[s] * glm::dot(n, mode[springs.first[s]] - mode[springs.second[s]]) * n;
             force[springs.first[s]] += pull;
             force[springs.second[s]] -= pull;
         }
@@ -81,8 +82,10 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     StableStep step;
     const double perShare = tissue.stiffnessOverMass(lattice.spacing);
     step.formulaRate2 = kEndlessLattice * perShare;
-    step.stiffestRate2 = std::clamp(kIterationSlack * stiffestShare(lattice), kEndlessLattice, kLoneCell) * perShare;
-    // Increments lag half a step, so damping tau omega^2 lowers the bound: dt^2 omega^2 + 2 dt tau omega^2 < 4.
+    step.stiffestRate2 =
+        std::clamp(kIterationSlack * stiffestShare(lattice), kEndlessLattice, kLoneCell) * perShare;
+    // Increments lag half a step, so damping tau omega^2 lowers the bound: dt^2 omega^2 + 2 dt tau omega^2
+    // < 4.
     const double tau = tissue.dampingTime;
     step.bound = std::sqrt(tau * tau + 4 / step.stiffestRate2) - tau;
     step.margin = kMargin;

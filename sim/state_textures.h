@@ -1,17 +1,23 @@
 #pragma once
-// The state of one lattice on the GPU: positions (RGBA32F: xyz lattice units, alpha packed normal), increments (RGBA32F),
-// node info (RGBA32UI). Drawing passes read positions() and texelOfNode of the layout.
+// The state of one lattice on the GPU: positions (RGBA32F: xyz lattice units, alpha packed normal),
+// increments (RGBA32F), node info (RGBA32UI). Drawing passes read positions() and texelOfNode of the layout.
 
+#include "base/result.h"
 #include "gpu/handles.h"
 #include "sim/lattice_state.h"
 #include "sim/texture_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
 
 namespace serosa::sim {
 
 class StateTextures {
 public:
     /// Uploads the rest state. Needs a current context. Errors: as makeTextureLayout.
-    static Result<StateTextures> create(const Lattice& lattice, const std::vector<bool>& fixed, int layoutKind = -1);
+    static Result<StateTextures> create(const Lattice& lattice, const std::vector<bool>& fixed,
+                                        int layoutKind = -1);
 
     const TextureLayout& layout() const { return layout_; }
     const gpu::Texture2D& positions() const { return positions_[current_]; }
@@ -22,10 +28,14 @@ public:
     void upload(const LatticeState& state);
     /// Reads all back (stalls).
     LatticeState download(std::int64_t step) const;
+    /// Texture memory, double buffering included.
+    std::size_t bytes() const;
 
 private:
     friend class FragmentSolver;
     StateTextures() = default;
+    std::size_t linearTexel(std::size_t node) const;
+
     TextureLayout layout_;
     std::vector<std::array<std::uint32_t, 4>> info_; // CPU copy of node info without held flags, one a texel
     gpu::Texture2D positions_[2], increments_[2], nodeInfo_[2], rowOffsets_[2];

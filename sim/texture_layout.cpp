@@ -1,14 +1,15 @@
-// Grid strips and compact rows. In rows, one pad texel stands in each gap of exactly one node, so that the neighbours
-// x-1, x, x+1 of a node in another row lie at consecutive texels around one offset, whichever of them exist.
+// Grid strips and compact rows. In rows, one pad texel stands in each gap of exactly one node, so that the
+// neighbours x-1, x, x+1 of a node in another row lie at consecutive texels around one offset, whichever of
+// them exist.
 #include "sim/texture_layout.h"
+
+#include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <array>
 #include <climits>
 #include <cstdint>
 #include <string>
-
-#include "shaders/shared_constants.h"
 
 namespace serosa::sim {
 
@@ -19,8 +20,9 @@ constexpr std::array<glm::ivec2, 8> kRowNeighbours = {
 
 Error tooLarge(const Lattice& lattice, int width, int height, int maxSize) {
     return Error{"a lattice of " + std::to_string(lattice.nodeCount()) + " nodes needs textures of " +
-                 std::to_string(width) + " x " + std::to_string(height) + " texels, this context has at most " +
-                 std::to_string(maxSize) + " along a side: take fewer nodes or a larger spacing"};
+                 std::to_string(width) + " x " + std::to_string(height) +
+                 " texels, this context has at most " + std::to_string(maxSize) +
+                 " along a side: take fewer nodes or a larger spacing"};
 }
 
 TextureLayout gridLayout(const Lattice& lattice) {
@@ -59,11 +61,13 @@ TextureLayout rowsLayout(const Lattice& lattice) {
         layout.texelOfNode.emplace_back(linear[node] % layout.width, linear[node] / layout.width);
         for (std::size_t row = 0; row < 8; ++row)
             for (const int dx : {0, -1, 1}) {
-                const glm::ivec3 there = lattice.nodes[node] + glm::ivec3(dx, kRowNeighbours[row].x, kRowNeighbours[row].y);
+                const glm::ivec3 there =
+                    lattice.nodes[node] + glm::ivec3(dx, kRowNeighbours[row].x, kRowNeighbours[row].y);
                 const std::int64_t other = lattice.nodeAt(there);
                 if (other < 0)
                     continue;
-                layout.rowOffsets[std::size_t(linear[node]) * 8 + row] = linear[std::size_t(other)] - dx - linear[node];
+                layout.rowOffsets[std::size_t(linear[node]) * 8 + row] =
+                    linear[std::size_t(other)] - dx - linear[node];
                 break;
             }
     }
@@ -80,7 +84,8 @@ Result<TextureLayout> makeTextureLayout(const Lattice& lattice, int kind, int ma
     }
     const std::int64_t stripHeight = std::int64_t(lattice.nodeDims.y) * lattice.nodeDims.z;
     if (kind == SRS_LAYOUT_GRID && (stripHeight > maxSize || lattice.nodeDims.x > maxSize))
-        return tooLarge(lattice, lattice.nodeDims.x, int(std::min<std::int64_t>(stripHeight, INT32_MAX)), maxSize);
+        return tooLarge(lattice, lattice.nodeDims.x, int(std::min<std::int64_t>(stripHeight, INT32_MAX)),
+                        maxSize);
     TextureLayout layout = kind == SRS_LAYOUT_GRID ? gridLayout(lattice) : rowsLayout(lattice);
     if (layout.width > maxSize || layout.height > maxSize)
         return tooLarge(lattice, layout.width, layout.height, maxSize);

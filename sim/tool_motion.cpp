@@ -1,5 +1,5 @@
-// Contact projects a node out of the sphere along the radius; the increment that follows from it ends the approach and
-// keeps the slide. Grasped nodes move with the sphere.
+// Contact projects a node out of the sphere along the radius; the increment that follows from it ends the
+// approach and keeps the slide. Grasped nodes move with the sphere.
 #include "sim/tool_motion.h"
 
 #include "shaders/shared_constants.h"

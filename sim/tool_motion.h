@@ -1,20 +1,21 @@
 #pragma once
-// What the tools of a scene do in one step, in lattice units: shared by the reference and the fragment solver's uniforms.
+// What the tools of a scene do in one step, in lattice units: shared by the reference and the fragment
+// solver's uniforms.
 
-#include <vector>
+#include "sim/solver.h"
 
 #include <glm/glm.hpp>
 
-#include "sim/solver.h"
+#include <vector>
 
 namespace serosa::sim {
 
 struct ToolMotion {
-    int mode = 0;           // SRS_TOOL_NONE (a grasp that is open), SRS_TOOL_PUSH, SRS_TOOL_GRASP
-    bool closes = false;    // this step begins with taking hold of the nodes inside
-    bool opens = false;     // this step begins with letting all go
+    int mode = 0;              // SRS_TOOL_NONE (a grasp that is open), SRS_TOOL_PUSH, SRS_TOOL_GRASP
+    bool closes = false;       // this step begins with taking hold of the nodes inside
+    bool opens = false;        // this step begins with letting all go
     glm::dvec3 from{0}, to{0}; // centre at the step's start and end, lattice units
-    double radius = 0;      // lattice units
+    double radius = 0;         // lattice units
 
     /// Position after the step of a node that was at `x` and moves freely to `free`.
     glm::dvec3 apply(const glm::dvec3& x, const glm::dvec3& free, bool held) const;

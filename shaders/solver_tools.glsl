@@ -1,0 +1,19 @@
+// Contact and grasp of one step: twin of ToolMotion::apply in sim/tool_motion.cpp. SRS_TOOLS is the number of tools.
+#include "shared_constants.h"
+
+uniform vec4 u_toolSpheres[SRS_MAX_TOOLS]; // centre at the end of the step and radius, lattice units
+uniform vec4 u_toolMoves[SRS_MAX_TOOLS];   // motion of the centre in this step, lattice units; w: SRS_TOOL_...
+
+/// Position after the step of a node that was at `x` and moves freely to `free`.
+vec3 applyTool(int tool, uint holder, vec3 x, vec3 free) {
+    int mode = int(u_toolMoves[tool].w);
+    if (mode == SRS_TOOL_GRASP)
+        return holder == uint(tool + 1) ? x + u_toolMoves[tool].xyz : free;
+    vec3 away = free - u_toolSpheres[tool].xyz;
+    float distance2 = dot(away, away);
+    float radius = u_toolSpheres[tool].w;
+    if (mode != SRS_TOOL_PUSH || distance2 >= radius * radius)
+        return free;
+    vec3 direction = distance2 > 1e-12 ? away * inversesqrt(distance2) : vec3(0.0, 1.0, 0.0);
+    return u_toolSpheres[tool].xyz + direction * radius;
+}
