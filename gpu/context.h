@@ -7,7 +7,9 @@
 #include "base/result.h"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace serosa::gpu {
@@ -45,7 +47,9 @@ protected:
 };
 
 /// Creates a context (core profile, 4.5 or later, debug output on) and makes it current.
-/// Errors (exit code 5): says for each kind that was tried what failed, and what to install or set.
+/// Errors (exit code 5): says for each kind that was tried what failed, and what to install or set. The
+/// environment variable SEROSA_GL_DISABLE="egl,egl-device,osmesa" (any of them) makes kinds unavailable, to
+/// test what happens then.
 Result<std::unique_ptr<Context>> createContext(GlChoice choice);
 
 /// What `serosa doctor` prints of one kind.
@@ -62,8 +66,12 @@ struct ContextOffer {
     std::vector<std::pair<std::string, bool>>
         floatTargets; // renderable: RGBA32F, RGBA16F, ..., additive blending of RGBA32F
 };
-/// Tries every kind in turn (each in this thread) and reports.
+/// Tries every kind in turn (each in this thread) and reports; the context that was current is so again
+/// afterwards.
 std::vector<ContextOffer> surveyContexts();
+
+/// The kind that GlChoice::automatic takes, judged by a survey; nothing when no kind is available.
+std::optional<ContextKind> automaticKind(const std::vector<ContextOffer>& offers);
 
 /// How GL errors that the debug callback reports are treated: a log line (default), or counted as failures by
 /// tests.
