@@ -1,9 +1,10 @@
 #pragma once
-// Cameras: scene settings framed on an organ, as matrices. Right-handed, y up; the view looks along -z of the camera.
-
-#include <glm/glm.hpp>
+// Cameras: scene settings framed on an organ, as matrices. Right-handed, y up; the view looks along -z of the
+// camera.
 
 #include "sim/scene.h"
+
+#include <glm/glm.hpp>
 
 namespace serosa::render {
 
@@ -13,7 +14,9 @@ struct CameraView {
     glm::dvec3 eye{0}; // m, world
 };
 
-/// \param lowest, highest bounds to frame where the scene gives no eye or height, m. \param aspect width / height.
-CameraView makeCamera(const sim::Camera& settings, const glm::dvec3& lowest, const glm::dvec3& highest, double aspect);
+/// \param lowest, highest bounds to frame where the scene gives no eye or height, m. \param aspect width /
+/// height.
+CameraView makeCamera(const sim::Camera& settings, const glm::dvec3& lowest, const glm::dvec3& highest,
+                      double aspect);
 
 } // namespace serosa::render

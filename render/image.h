@@ -1,12 +1,12 @@
 #pragma once
 // Pictures: 8-bit sRGB, top row first; PNG files written whole or not at all; contact sheets.
 
+#include "base/result.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "base/result.h"
 
 namespace serosa::render {
 
@@ -15,7 +15,8 @@ struct Image {
     std::vector<std::uint8_t> rgb; // width * height * 3
 };
 
-/// Deterministic bytes (no time stamps). Errors: folder missing, disk full; nothing is left under the final name then.
+/// Deterministic bytes (no time stamps). Errors: folder missing, disk full; nothing is left under the final
+/// name then.
 Status writePng(const Image& image, const std::filesystem::path& file);
 Result<Image> readPng(const std::filesystem::path& file);
 

@@ -1,44 +1,54 @@
 #pragma once
-// Binding of a detailed surface to the lattice's boundary (MS05 3.3, eq. 4-8): for each vertex a triangle of nodes,
-// weights of the reference point, the offset and the rest normal in the triangle basis or the curvature-corrected one.
-// Made once on the CPU, with the packed rest normals as the GPU has them; drawn by shaders/surface.vert (eq. 9).
-
-#include <cstdint>
-#include <vector>
-
-#include <glm/glm.hpp>
+// Binding of a detailed surface to the lattice's boundary (MS05 3.3, eq. 4-8): for each vertex a triangle of
+// nodes, weights of the reference point, the offset and the rest normal in the triangle basis or the
+// curvature-corrected one. Made once on the CPU, with the packed rest normals as the GPU has them; drawn by
+// shaders/surface.vert (eq. 9).
 
 #include "sim/lattice.h"
 #include "sim/scene.h"
 #include "sim/triangle_mesh.h"
 
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
 namespace serosa::render {
 
 struct VertexBinding {
-    glm::uvec3 nodes;     // indices into the lattice's nodes
-    glm::vec3 weights;    // of eq. 4, sum 1
-    glm::vec3 offset;     // lattice units, in the basis (T, N, B) of `basis`
-    glm::vec3 normal;     // unit rest normal in that basis
-    std::uint32_t basis;  // SRS_BASIS_CONSTANT or SRS_BASIS_CORRECTED
+    glm::uvec3 nodes;    // indices into the lattice's nodes
+    glm::vec3 weights;   // of eq. 4, sum 1; the first two are multiples of 1/65535 (16 bits on the GPU)
+    glm::vec3 offset;    // lattice units, in the basis (T, N, B) of `basis`
+    glm::vec3 normal;    // unit rest normal in that basis
+    std::uint32_t basis; // SRS_BASIS_CONSTANT or SRS_BASIS_CORRECTED
 };
 
 struct SurfaceBinding {
     sim::Mapping mapping;
     std::vector<VertexBinding> vertices;  // one a mesh vertex
     std::vector<std::uint32_t> triangles; // boundary triangle of each vertex
-    // Edges of the mesh whose ends bind to triangles that share no node: found by the closest-triangle search, and left
-    // after flooding from neighbours.
+    // Edges of the mesh whose ends bind to triangles that share no node: found by the closest-triangle
+    // search, and left after flooding from neighbours.
     std::size_t tornEdgesFound = 0, tornEdgesLeft = 0;
     std::size_t constantVertices = 0; // vertices that fall back to the constant basis
     double bytesPerVertex = 0;
 };
 
 /// Binds every vertex. `metres` is the rest surface in world metres. mapping: triangle or curvature.
-SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres, sim::Mapping mapping);
+SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                           sim::Mapping mapping);
 
-/// Eq. 9 on the CPU in double (the twin of shaders/surface.vert, for tests): vertex positions in lattice units from node
-/// positions (lattice units) and packed node normals.
-std::vector<glm::dvec3> mapSurface(const SurfaceBinding& binding, const std::vector<glm::dvec3>& nodePositions,
+/// The same triangles and weights, offsets and normals for another mapping (triangle or curvature).
+SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                              const sim::TriangleMesh& metres, sim::Mapping mapping);
+
+/// Eq. 9 on the CPU in double (the twin of shaders/surface.vert, for tests): vertex positions in lattice
+/// units from node positions (lattice units) and packed node normals.
+std::vector<glm::dvec3> mapSurface(const SurfaceBinding& binding,
+                                   const std::vector<glm::dvec3>& nodePositions,
                                    const std::vector<std::uint32_t>& packedNormals);
+/// Eq. 4 alone: the reference points, lattice units.
+std::vector<glm::dvec3> referencePoints(const SurfaceBinding& binding,
+                                        const std::vector<glm::dvec3>& nodePositions);
 
 } // namespace serosa::render

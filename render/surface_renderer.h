@@ -1,9 +1,7 @@
 #pragma once
-// Draws an organ from its state textures: the detailed surface through a mapping of MS05 3.2-3.3, the lattice's springs
-// over it, the tools, a backdrop. Nothing is read back to draw; only the finished picture is.
-
-#include <memory>
-#include <vector>
+// Draws an organ from its state textures: the detailed surface through a mapping of MS05 3.2-3.3, the
+// lattice's springs over it, the tools, a backdrop. Nothing is read back to draw; only the finished picture
+// is.
 
 #include "base/result.h"
 #include "gpu/handles.h"
@@ -12,6 +10,9 @@
 #include "render/surface_binding.h"
 #include "sim/scene.h"
 #include "sim/state_textures.h"
+
+#include <memory>
+#include <vector>
 
 namespace serosa::render {
 
@@ -25,7 +26,8 @@ struct View {
 
 class SurfaceRenderer {
 public:
-    /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it.
+    /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for
+    /// it.
     static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                           const SurfaceBinding& binding, const sim::StateTextures& state,
                                           int width, int height);
@@ -37,8 +39,8 @@ public:
     void draw(const sim::StateTextures& state, const View& view);
     /// The last drawn frame, sRGB, top row first.
     Image readImage() const;
-    /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback), for
-    /// surface files; `mapping` triangle or curvature.
+    /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback),
+    /// for surface files; `mapping` triangle or curvature.
     std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping);
 
 private:

@@ -1,0 +1,69 @@
+#include "render/surface_vertices.h"
+
+#include "shaders/shared_constants.h"
+#include "sim/packed_normal.h"
+
+#include <meshoptimizer.h>
+
+#include <cmath>
+
+namespace serosa::render {
+
+namespace {
+
+std::uint32_t texel(const sim::TextureLayout& layout, std::uint32_t node) {
+    const glm::uvec2& at = layout.texelOfNode[node];
+    return at.y << 16 | at.x;
+}
+
+} // namespace
+
+std::vector<MappedVertex> mappedVertices(const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                         const std::vector<glm::u8vec4>& colours) {
+    std::vector<MappedVertex> vertices(binding.vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const VertexBinding& bound = binding.vertices[v];
+        MappedVertex& vertex = vertices[v];
+        for (int i = 0; i < 3; ++i)
+            vertex.texels[i] = texel(layout, bound.nodes[i]);
+        vertex.weights = {std::lround(double(bound.weights.x) * kWeightSteps),
+                          std::lround(double(bound.weights.y) * kWeightSteps)};
+        vertex.offset = bound.offset;
+        vertex.normal =
+            sim::packNormal(bound.normal) | (bound.basis == SRS_BASIS_CORRECTED ? kCorrectedBit : 0U);
+        vertex.colour = colours[v];
+    }
+    return vertices;
+}
+
+std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                         const std::vector<glm::u8vec4>& colours) {
+    const std::vector<glm::dvec3> normals = metres.vertexNormals();
+    std::vector<StaticVertex> vertices(metres.positions.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        vertices[v] = {glm::vec3(lattice.toLattice(metres.positions[v])),
+                       sim::packNormal(glm::vec3(normals[v])), colours[v]};
+    return vertices;
+}
+
+CacheOrder cacheOrder(const sim::TriangleMesh& mesh) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(mesh.faces.size() * 3);
+    for (const glm::uvec3& face : mesh.faces)
+        indices.insert(indices.end(), {face.x, face.y, face.z});
+    const std::size_t vertices = mesh.positions.size();
+    CacheOrder order;
+    order.indices.resize(indices.size());
+    meshopt_optimizeVertexCache(order.indices.data(), indices.data(), indices.size(), vertices);
+    order.newIndex.resize(vertices);
+    auto next = std::uint32_t(meshopt_optimizeVertexFetchRemap(order.newIndex.data(), order.indices.data(),
+                                                               indices.size(), vertices));
+    for (std::uint32_t& index : order.newIndex) // vertices that no face uses come last
+        if (index == ~0U)
+            index = next++;
+    for (std::uint32_t& index : order.indices)
+        index = order.newIndex[index];
+    return order;
+}
+
+} // namespace serosa::render

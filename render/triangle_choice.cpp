@@ -1,0 +1,250 @@
+// MS05 3.3.1: "for each vertex we associate a triangle of three nodal positions". Departure: not merely the
+// closest one. Where a wall is thinner than about two spacings the closest boundary triangle may lie on the
+// wall's other side, and the vertex would follow the wrong surface; so triangles that face against the
+// vertex' normal are passed over while any other lies within 1.5 spacings.
+#include "render/triangle_choice.h"
+
+#include "render/parallel.h"
+#include "sim/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+
+namespace serosa::render {
+
+namespace {
+
+constexpr double kFacing = 0.1;      // least n_vertex . n_triangle
+constexpr double kReach = 1.5;       // spacings within which a facing triangle is preferred
+constexpr double kRepairReach = 1.5; // spacings by which a repair may move the reference point away
+constexpr int kPasses = 4;
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// Lists of items by key, in two flat arrays.
+class Adjacency {
+public:
+    Adjacency(std::size_t keys, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
+        : begin_(keys + 1) {
+        for (const auto& [key, item] : pairs)
+            ++begin_[key + 1];
+        for (std::size_t k = 0; k < keys; ++k)
+            begin_[k + 1] += begin_[k];
+        items_.resize(pairs.size());
+        std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
+        for (const auto& [key, item] : pairs)
+            items_[at[key]++] = item;
+    }
+    std::span<const std::uint32_t> operator[](std::uint32_t key) const {
+        return std::span(items_).subspan(begin_[key], begin_[key + 1] - begin_[key]);
+    }
+
+private:
+    std::vector<std::uint32_t> begin_, items_;
+};
+
+using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Edges edgesOf(const std::vector<glm::uvec3>& faces) {
+    Edges edges;
+    for (const glm::uvec3& f : faces)
+        for (int i = 0; i < 3; ++i)
+            edges.emplace_back(std::min(f[i], f[(i + 1) % 3]), std::max(f[i], f[(i + 1) % 3]));
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+class Repair {
+public:
+    Repair(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+           const std::vector<glm::dvec3>& positions, std::vector<std::uint32_t>& triangles)
+        : lattice_(lattice), positions_(positions), triangles_(triangles), edges_(edgesOf(faces)),
+          around_(neighbours()), ofNode_(trianglesOfNodes()) {}
+
+    std::size_t tornEdges() const {
+        return std::size_t(std::count_if(edges_.begin(), edges_.end(),
+                                         [&](const auto& e) { return torn(e.first, e.second); }));
+    }
+
+    /// One pass over all patches, small ones first. Returns whether anything changed.
+    bool pass() {
+        const std::vector<std::vector<std::uint32_t>> patches = findPatches();
+        bool changed = false;
+        for (const auto& patch : patches)
+            changed = floodInto(patch) || changed;
+        return changed;
+    }
+
+private:
+    Adjacency neighbours() const {
+        Edges both = edges_;
+        for (const auto& [a, b] : edges_)
+            both.emplace_back(b, a);
+        return {positions_.size(), both};
+    }
+    Adjacency trianglesOfNodes() const {
+        Edges pairs;
+        for (std::uint32_t t = 0; t < lattice_.boundary.size(); ++t)
+            for (int i = 0; i < 3; ++i)
+                pairs.emplace_back(lattice_.boundary[t][i], t);
+        return {lattice_.nodeCount(), pairs};
+    }
+
+    bool torn(std::uint32_t a, std::uint32_t b) const {
+        const glm::uvec3 &s = lattice_.boundary[triangles_[a]], &t = lattice_.boundary[triangles_[b]];
+        for (int i = 0; i < 3; ++i)
+            if (s[i] == t.x || s[i] == t.y || s[i] == t.z)
+                return false;
+        return true;
+    }
+    std::size_t tornAround(const std::vector<std::uint32_t>& patch) const {
+        std::size_t count = 0;
+        for (const std::uint32_t v : patch)
+            for (const std::uint32_t w :
+                 around_[v]) // an edge inside the patch counts from both ends, before and after alike
+                count += torn(v, w);
+        return count;
+    }
+
+    /// Vertices joined by edges that are not torn; all patches that touch a torn edge, smallest first.
+    std::vector<std::vector<std::uint32_t>> findPatches() {
+        patchOf_.assign(positions_.size(), kNone);
+        std::vector<std::vector<std::uint32_t>> patches;
+        std::vector<bool> touched;
+        for (std::uint32_t seed = 0; seed < positions_.size(); ++seed) {
+            if (patchOf_[seed] != kNone)
+                continue;
+            const auto id = std::uint32_t(patches.size());
+            std::vector<std::uint32_t> patch{seed};
+            bool touches = false;
+            patchOf_[seed] = id;
+            for (std::size_t i = 0; i < patch.size(); ++i)
+                for (const std::uint32_t w : around_[patch[i]]) {
+                    const bool isTorn = torn(patch[i], w);
+                    touches = touches || isTorn;
+                    if (!isTorn && patchOf_[w] == kNone) {
+                        patchOf_[w] = id;
+                        patch.push_back(w);
+                    }
+                }
+            patches.push_back(std::move(patch));
+            touched.push_back(touches);
+        }
+        std::vector<std::vector<std::uint32_t>> result;
+        for (std::size_t i = 0; i < patches.size(); ++i)
+            if (touched[i])
+                result.push_back(std::move(patches[i]));
+        std::stable_sort(result.begin(), result.end(),
+                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
+        return result;
+    }
+
+    double distanceTo(std::uint32_t vertex, std::uint32_t triangle) const {
+        const glm::uvec3& t = lattice_.boundary[triangle];
+        const glm::dvec3& p = positions_[vertex];
+        return glm::distance(p, sim::closestPointOnTriangle(p, lattice_.restPosition(t.x),
+                                                            lattice_.restPosition(t.y),
+                                                            lattice_.restPosition(t.z))
+                                    .point);
+    }
+
+    /// The closest triangle around the nodes of the triangle of `from`; kNone if it lies too far out.
+    std::uint32_t closestAround(std::uint32_t vertex, std::uint32_t from) const {
+        const glm::uvec3& nodes = lattice_.boundary[triangles_[from]];
+        std::uint32_t best = kNone;
+        double bestDistance = distanceTo(vertex, triangles_[vertex]) + kRepairReach;
+        for (int i = 0; i < 3; ++i)
+            for (const std::uint32_t t : ofNode_[nodes[i]])
+                if (const double d = distanceTo(vertex, t);
+                    d < bestDistance || (d == bestDistance && t < best)) {
+                    best = t;
+                    bestDistance = d;
+                }
+        return best;
+    }
+
+    /// Binds a patch anew from outside, breadth first; keeps it only if fewer edges are torn then.
+    bool floodInto(const std::vector<std::uint32_t>& patch) {
+        if (patch.size() > positions_.size() / 2)
+            return false; // the part that others are bound to
+        const std::size_t before = tornAround(patch);
+        std::vector<std::uint32_t> old;
+        for (const std::uint32_t v : patch) {
+            old.push_back(triangles_[v]);
+            state_[v] = State::waiting;
+        }
+        std::vector<std::uint32_t> queue;
+        const auto visit = [&](std::uint32_t v, std::uint32_t from) {
+            if (const std::uint32_t t = closestAround(v, from); t != kNone)
+                triangles_[v] = t;
+            state_[v] = State::bound;
+            queue.push_back(v);
+        };
+        for (const std::uint32_t v : patch)
+            for (const std::uint32_t w : around_[v])
+                if (state_[v] == State::waiting && state_[w] == State::outside && torn(v, w))
+                    visit(v, w);
+        for (std::size_t i = 0; i < queue.size(); ++i)
+            for (const std::uint32_t w : around_[queue[i]])
+                if (state_[w] == State::waiting)
+                    visit(w, queue[i]);
+        for (const std::uint32_t v : patch)
+            state_[v] = State::outside;
+        if (tornAround(patch) < before)
+            return true;
+        for (std::size_t i = 0; i < patch.size(); ++i)
+            triangles_[patch[i]] = old[i];
+        return false;
+    }
+
+    enum class State : std::uint8_t { outside, waiting, bound };
+
+    const sim::Lattice& lattice_;
+    const std::vector<glm::dvec3>& positions_;
+    std::vector<std::uint32_t>& triangles_;
+    Edges edges_;
+    Adjacency around_, ofNode_;
+    std::vector<std::uint32_t> patchOf_;
+    std::vector<State> state_ = std::vector<State>(positions_.size(), State::outside);
+};
+
+} // namespace
+
+void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+                     const std::vector<glm::dvec3>& positions, TriangleChoice& choice) {
+    Repair repair(lattice, faces, positions, choice.triangles);
+    choice.tornEdgesLeft = choice.tornEdgesFound = repair.tornEdges();
+    for (int pass = 0; pass < kPasses && choice.tornEdgesLeft > 0; ++pass) {
+        if (!repair.pass())
+            break;
+        choice.tornEdgesLeft = repair.tornEdges();
+    }
+}
+
+TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+                               const std::vector<glm::dvec3>& positions,
+                               const std::vector<glm::dvec3>& normals) {
+    std::vector<glm::dvec3> nodes(lattice.nodeCount());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] = lattice.restPosition(i);
+    const sim::TriangleTree tree(nodes, lattice.boundary);
+    std::vector<glm::dvec3> facing;
+    for (const glm::uvec3& t : lattice.boundary)
+        facing.push_back(glm::normalize(glm::cross(nodes[t.y] - nodes[t.x], nodes[t.z] - nodes[t.x])));
+
+    TriangleChoice choice;
+    choice.triangles.resize(positions.size());
+    parallelFor(positions.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const auto agrees = [&](std::uint32_t t) { return glm::dot(normals[v], facing[t]) >= kFacing; };
+            auto closest = tree.closest(positions[v], kReach, agrees);
+            if (!closest)
+                closest = tree.closest(positions[v]);
+            choice.triangles[v] = closest.triangle;
+        }
+    });
+    repairTornEdges(lattice, faces, positions, choice);
+    return choice;
+}
+
+} // namespace serosa::render

@@ -1,0 +1,32 @@
+#pragma once
+// Which boundary triangle of the lattice each vertex follows: the closest one that faces the same way, then a
+// repair of the edges whose ends would follow unrelated parts of the lattice (MS05 3.3.1 leaves the choice
+// open).
+
+#include "sim/lattice.h"
+#include "sim/triangle_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace serosa::render {
+
+struct TriangleChoice {
+    std::vector<std::uint32_t> triangles; // into lattice.boundary, one a vertex
+    std::size_t tornEdgesFound = 0, tornEdgesLeft = 0;
+};
+
+/// \param positions vertices at rest, lattice units. \param normals of the mesh, unit. One a vertex.
+TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+                               const std::vector<glm::dvec3>& positions,
+                               const std::vector<glm::dvec3>& normals);
+
+/// Repairs a given choice in place and counts: edges of the mesh whose ends' triangles share no node are
+/// torn. Connected patches of vertices are bound anew, flooding in from their neighbours across torn edges,
+/// where that leaves fewer torn edges.
+void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+                     const std::vector<glm::dvec3>& positions, TriangleChoice& choice);
+
+} // namespace serosa::render

@@ -1,0 +1,64 @@
+#version 450 core
+// Wet tissue, lit per pixel with the rest normal that the basis carried along: wrapped diffuse light that turns red at the
+// terminator (blood scatters red farthest), a rough lobe of the tissue and a sharp one of the film on it, soft surroundings.
+// Or (SURFACE_NORMAL_COLOURS) the dynamic normal as a colour, for MS05 figure 6.
+#include "shared_constants.h"
+#include "lighting.glsl"
+
+in vec3 v_position;
+in vec3 v_normal;
+in vec3 v_dynamicNormal;
+in vec4 v_colour;
+
+uniform vec4 u_tools[SRS_MAX_TOOLS]; // centre, radius in lattice units; radius 0: none
+
+out vec4 o_colour;
+
+/// Light that tools leave: x of the surround, y of the key lamp.
+vec2 toolShade(vec3 position, vec3 n) {
+    vec2 light = vec2(1.0);
+    for (int i = 0; i < SRS_MAX_TOOLS; ++i) {
+        float radius = u_tools[i].w;
+        if (radius <= 0.0)
+            continue;
+        vec3 to = u_tools[i].xyz - position;
+        float distance2 = max(dot(to, to), radius * radius), distance = sqrt(distance2);
+        light.x *= 1.0 - max(dot(n, to) / distance, 0.0) * radius * radius / distance2;
+        float along = dot(to, u_toKey), miss = sqrt(max(dot(to, to) - along * along, 0.0));
+        float blur = 0.15 * radius + 0.25 * max(along, 0.0);
+        light.y *= along > 0.0 ? smoothstep(radius - blur, radius + blur, miss) : 1.0;
+    }
+    return light;
+}
+
+void main() {
+    vec3 n = normalize(v_normal), v = toEye(v_position);
+    float away = dot(n, v);
+    if (away < 0.02) // interpolation turns normals at the silhouette a little away from the eye
+        n = normalize(n + (0.02 - away) * v);
+#ifdef SURFACE_NORMAL_COLOURS
+    vec3 albedo = 0.5 + 0.5 * normalize(v_dynamicNormal);
+    float shade = 0.35 + 0.5 * max(dot(n, u_toKey), 0.0) + 0.15 * max(dot(n, v), 0.0);
+    o_colour = vec4(albedo * albedo * shade, 1.0);
+#else
+    vec3 albedo = v_colour.rgb;
+    vec2 shade = toolShade(v_position, n);
+    float open = v_colour.a * shade.x, ndl = dot(n, u_toKey), ndv = max(dot(n, v), 0.02);
+
+    const vec3 kWrap = vec3(0.42, 0.16, 0.11);
+    vec3 key = max((ndl + kWrap) / ((1.0 + kWrap) * (1.0 + kWrap)), 0.0);
+    key *= mix(vec3(1.0), vec3(shade.y), vec3(0.80, 0.93, 0.95)); // some red light gets under the tool's shadow
+    vec3 occluded = pow(vec3(open), vec3(0.75, 1.0, 1.05)); // and into the grooves
+    float back = max((dot(n, u_toBack) + 0.3) / 1.69, 0.0) * open;
+    vec3 colour = albedo * (kKeyColour * key * (2.1 * u_key) * mix(0.6 + 0.4 * v_colour.a, 1.0, 0.5) +
+                            surround(n) * 1.15 * occluded + kBackColour * (0.55 * u_key * back));
+
+    vec3 h = normalize(v + u_toKey);
+    float ndh = max(dot(n, h), 0.0), ldh = max(dot(u_toKey, h), 0.0), lit = max(ndl, 0.0) * shade.y;
+    colour += kKeyColour * (0.028 * lit * 3.1 * 2.1 * u_key * ggx(0.16, ndh, ldh));
+    float glance = fresnel(0.026, ndv) * (1.0 - 0.35 * smoothstep(0.0, 0.25, 0.25 - ndv) * 4.0 * 0.25);
+    float seen = clamp(open * open * 1.15, 0.0, 1.0);
+    colour += studio(reflect(-v, n), 0.12) * glance * seen * mix(0.45, 1.0, shade.y);
+    o_colour = vec4(toneMap(colour * 0.95), 1.0);
+#endif
+}

@@ -1,0 +1,52 @@
+#version 450 core
+// The detailed surface: undeformed (SURFACE_STATIC), through the triangle basis or the curvature-corrected one (MS05 3.3), or
+// the lattice's own boundary with one vertex a node (SURFACE_NODES, MS05 3.2). Lattice units; axes are the world's.
+#ifdef SURFACE_STATIC
+#include "packed_normal.glsl"
+#else
+#include "mapping.glsl"
+#endif
+
+#ifdef SURFACE_NODES
+layout(location = 0) in uint a_texel;
+uniform vec4 u_colour; // as a_colour
+#else
+#ifndef SURFACE_STATIC
+layout(location = 0) in uvec3 a_texels; // y << 16 | x
+layout(location = 1) in vec2 a_weights; // w1, w2
+#endif
+layout(location = 2) in vec3 a_offset;  // in the basis; SURFACE_STATIC: the position
+layout(location = 3) in uint a_normal;  // packed, in the basis; bit 30: the basis is the corrected one
+layout(location = 4) in vec4 a_colour;  // square root of the linear colour; ambient light that arrives
+#endif
+
+uniform mat4 u_clipFromLattice;
+
+out vec3 v_position;      // lattice units
+out vec3 v_normal;        // of the surface
+out vec3 v_dynamicNormal; // of the basis
+out vec4 v_colour;        // linear; ambient light that arrives
+
+void main() {
+#if defined(SURFACE_STATIC)
+    v_position = a_offset;
+    v_normal = unpackNormal(a_normal);
+    v_dynamicNormal = v_normal;
+    v_colour = a_colour;
+#elif defined(SURFACE_NODES)
+    vec4 node = fetchNode(a_texel);
+    v_position = node.xyz;
+    v_normal = nodeNormal(node);
+    v_dynamicNormal = v_normal;
+    v_colour = u_colour;
+#else
+    Mapped mapped = mapVertex(a_texels, a_weights, a_offset, (a_normal & 0x40000000u) != 0u);
+    vec3 normal = unpackNormal(a_normal);
+    v_position = mapped.position;
+    v_normal = normal.x * mapped.t + normal.y * mapped.n + normal.z * mapped.b;
+    v_dynamicNormal = mapped.n;
+    v_colour = a_colour;
+#endif
+    v_colour.rgb *= v_colour.rgb;
+    gl_Position = u_clipFromLattice * vec4(v_position, 1.0);
+}
