@@ -1,0 +1,98 @@
+// See app/organ_setup.h.
+
+#include "app/organ_setup.h"
+
+#include "sim/mesh_check.h"
+#include "sim/mesh_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace serosa::app {
+
+namespace {
+
+constexpr double kMostStepsAFrame = 1e5;
+
+/// "scene.toml:12: " or "".
+std::string scenePosition(const std::filesystem::path& scene, int line) {
+    return scene.empty() || line == 0 ? "" : scene.string() + ":" + std::to_string(line) + ": ";
+}
+
+} // namespace
+
+Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem::path& scene) {
+    const auto inScene = [&](const Error& error) {
+        return Error{scenePosition(scene, organ.modelLine) + error.message, error.exitCode};
+    };
+    OrganSurface surface;
+    Result<sim::TriangleMesh> mesh = sim::readMesh(organ.model);
+    if (!mesh)
+        return inScene(mesh.error());
+    surface.file = std::move(*mesh);
+    if (const Status closed = sim::checkClosedSolid(surface.file, organ.model.string()); !closed.ok())
+        return inScene(closed.error());
+    surface.metres = surface.file;
+    for (glm::dvec3& position : surface.metres.positions)
+        position *= organ.lengthUnit;
+    return surface;
+}
+
+Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice& lattice,
+                                     const sim::TriangleMesh& metres, const std::filesystem::path& scene) {
+    std::vector<bool> fixed(lattice.nodeCount(), false);
+    for (const sim::FixedRegion& region : organ.fixed) {
+        std::size_t held = 0;
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+            if (region.contains(lattice.toWorld(lattice.restPosition(node)))) {
+                fixed[node] = true;
+                ++held;
+            }
+        if (held == 0)
+            return Error{scenePosition(scene, region.line) +
+                         "this fixed region holds no node of the organ: look at its position and unit"};
+    }
+    if (organ.fixedLowestShare > 0) {
+        const double lowest = metres.lowest().y, height = metres.highest().y - lowest;
+        const double limit = lowest + organ.fixedLowestShare * height;
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+            if (lattice.toWorld(lattice.restPosition(node)).y <= limit)
+                fixed[node] = true;
+    }
+    return fixed;
+}
+
+Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres) {
+    sim::LatticeRequest request;
+    request.spacing = organ.spacing;
+    request.nodes = organ.nodes;
+    return sim::buildLattice(metres, request);
+}
+
+Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime) {
+    const double rate2 =
+        12 * organ.tissue.stiffnessOverMass(lattice.spacing); // 1/s2, the least that it can be
+    // Damping c = dampingTime k along springs bounds the step by about 2 / (dampingTime rate2), too.
+    const double steps = frameTime * std::max(std::sqrt(rate2), organ.tissue.dampingTime * rate2) / 2;
+    if (!(steps <= kMostStepsAFrame))
+        return Error{"the tissue is so stiff or damped on so fine a lattice that a frame would take " +
+                     shortNumber(steps) +
+                     " steps or more (at most 100,000): lower young or damping_time, or raise spacing"};
+    return sim::stableStep(lattice, organ.tissue, frameTime);
+}
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (int at = int(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(std::size_t(at), ",");
+    return digits;
+}
+
+std::string shortNumber(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+} // namespace serosa::app

@@ -1,0 +1,268 @@
+// The loop of `serosa run`: step, draw, write. Nothing is read back from the state to draw; the energies'
+// samples read it every ten frames.
+
+#include "app/run.h"
+
+#include "app/output_folder.h"
+#include "app/pose.h"
+#include "app/progress.h"
+#include "app/run_setup.h"
+#include "app/summary.h"
+#include "base/atomic_file.h"
+#include "gpu/gl.h"
+#include "render/image.h"
+#include "sim/mesh_writer.h"
+#include "sim/quantity.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+#include <set>
+
+namespace serosa::app {
+
+namespace {
+
+constexpr int kSampleEvery = 10; // frames between two samples of the energies
+constexpr int kTileWidth = 320;  // pixels of a picture on the contact sheet, at most
+constexpr int kExitInterrupted = 130;
+
+/// Adds the wall time of its life to a sum of seconds.
+class Stopwatch {
+public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string numbered(const char* format, int frame) {
+    char name[64];
+    std::snprintf(name, sizeof name, format, frame);
+    return name;
+}
+
+class Run {
+public:
+    Run(RunParts& parts, OutputFolder& folder, const std::string& solver)
+        : parts_(parts), folder_(folder), frames_(parts.scene.frames()),
+          frameTime_(1 / parts.scene.frameRate) {
+        record_.scene = parts.scene;
+        record_.solver = parts.solver ? solver : "pose";
+        record_.gl = parts.context->info();
+        record_.vertices = parts.surface.file.positions.size();
+        record_.faces = parts.surface.file.faces.size();
+        record_.lattice = &parts.lattice;
+        record_.layout = &parts.textures().layout();
+        record_.fixedNodes =
+            std::size_t(std::count(parts.setup.fixed.begin(), parts.setup.fixed.end(), true));
+        record_.step = parts.step;
+        record_.binding = &parts.binding;
+        const sim::Output& output = parts.scene.output;
+        for (const double time : output.surfacesAt)
+            surfaceFrames_.insert(frameAt(time));
+        for (const double time : output.sheetAt)
+            sheetFrames_.insert(std::max(1, frameAt(time)));
+        if (output.sheetAt.empty())
+            for (int i = 0, tiles = output.sheetColumns * output.sheetRows; i < tiles; ++i)
+                sheetFrames_.insert(std::max(1, int(std::lround((i + 1.0) * frames_ / tiles))));
+        camera_ = render::makeCamera(parts.scene.camera, parts.surface.metres.lowest(),
+                                     parts.surface.metres.highest(), double(output.width) / output.height);
+    }
+
+    /// All frames, until the end, an interruption or a state that is not finite (`record().end` says which).
+    Status frames(const InterruptGuard& interrupt) {
+        if (!surfaceFrames_.empty())
+            restSurface_ = parts_.renderer->readDeformedPositions(parts_.textures(), parts_.surfaceMapping());
+        SEROSA_TRY(writeSurface(0));
+        sample(0);
+        Progress progress("frames", frames_);
+        for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
+            step(frame);
+            SEROSA_TRY(picture(frame));
+            SEROSA_TRY(writeSurface(frame));
+            record_.framesDone = frame;
+            if (frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted())
+                sample(frame);
+            if (interrupt.interrupted() && record_.end == "complete" && frame < frames_)
+                record_.end = "interrupted";
+            progress.show(frame);
+        }
+        return {};
+    }
+
+    Status contactSheet() {
+        if (tiles_.empty())
+            return {};
+        const render::Image sheet = render::contactSheet(tiles_, captions_, parts_.scene.output.sheetColumns);
+        return render::writePng(sheet, folder_.file("contact_sheet.png"));
+    }
+
+    RunRecord& record() { return record_; }
+    const std::string& failure() const { return failure_; }
+
+private:
+    int frameAt(double time) const { return std::clamp(int(std::lround(time / frameTime_)), 0, frames_); }
+
+    void step(int frame) {
+        Stopwatch watch(record_.times.steps);
+        if (!parts_.solver) {
+            const double share = double(frame) / frames_;
+            posed_ = bentState(parts_.lattice, share / parts_.scene.organs.front().pose->bendRadius);
+            posed_->step = frame;
+            parts_.uploaded->upload(*posed_);
+            return;
+        }
+        parts_.solver->advance(parts_.step.stepsPerFrame);
+        ToolForce force{frame * frameTime_, parts_.solver->takeToolImpulses()};
+        for (glm::dvec3& impulse : force.forces)
+            impulse /= frameTime_;
+        if (!force.forces.empty())
+            record_.toolForces.push_back(std::move(force));
+        if (parts_.uploaded)
+            parts_.uploaded->upload(parts_.solver->state());
+        glFinish();
+    }
+
+    sim::LatticeState state() const {
+        return parts_.solver ? parts_.solver->state() : posed_ ? *posed_ : sim::restState(parts_.lattice);
+    }
+
+    void sample(int frame) {
+        const sim::LatticeState now = state();
+        const double time = frame * frameTime_;
+        const Displacement moved = largestDisplacement(parts_.lattice, now);
+        record_.stateHash = now.hash();
+        if (!moved.finite) {
+            record_.end = "not finite";
+            failure_ = "the position of node " + std::to_string(moved.node) + " is not finite " +
+                       sim::formatQuantity(time, sim::Dimension::time) + " into the run, or up to " +
+                       std::to_string(kSampleEvery) + " frames before: the pictures show what led to it";
+            return;
+        }
+        EnergySample energy{time, {}, moved.largest};
+        if (parts_.solver)
+            energy.energies = sim::energies(parts_.setup, now);
+        record_.largestDisplacement = std::max(record_.largestDisplacement, moved.largest);
+        record_.samples.push_back(energy);
+    }
+
+    Status picture(int frame) {
+        const sim::Output& output = parts_.scene.output;
+        const bool written = frame % output.frameEvery == 0 || frame == frames_,
+                   tile = sheetFrames_.contains(frame);
+        if (!written && !tile)
+            return {};
+        render::View view{camera_, parts_.scene.light, parts_.scene.look, {}};
+        for (const sim::Tool& tool : parts_.scene.tools)
+            view.toolSpheres.emplace_back(tool.centreAt(frame * frameTime_), tool.radius);
+        {
+            Stopwatch watch(record_.times.draw);
+            parts_.renderer->draw(parts_.textures(), view);
+            glFinish();
+        }
+        Stopwatch watch(record_.times.files);
+        const render::Image image = parts_.renderer->readImage();
+        if (tile) {
+            char caption[32];
+            std::snprintf(caption, sizeof caption, "t = %.2f s", frame * frameTime_);
+            tiles_.push_back(render::shrink(image, kTileWidth));
+            captions_.emplace_back(caption);
+        }
+        if (!written)
+            return {};
+        ++record_.picturesWritten;
+        return render::writePng(image, folder_.file(numbered("frame_%06d.png", frame)));
+    }
+
+    /// The surface in the file's unit, frame and vertex order: the file's own positions plus the
+    /// displacement, so that rest comes out as it went in.
+    Status writeSurface(int frame) {
+        if (!surfaceFrames_.contains(frame))
+            return {};
+        Stopwatch watch(record_.times.files);
+        const auto deformed =
+            parts_.renderer->readDeformedPositions(parts_.textures(), parts_.surfaceMapping());
+        sim::TriangleMesh mesh = parts_.surface.file;
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            mesh.positions[i] += (deformed[i] - restSurface_[i]) / parts_.scene.organs.front().lengthUnit;
+        ++record_.surfacesWritten;
+        return sim::writeMesh(mesh, folder_.file(numbered("surface_%06d.ply", frame)));
+    }
+
+    RunParts& parts_;
+    OutputFolder& folder_;
+    int frames_;
+    double frameTime_; // s
+    render::CameraView camera_;
+    RunRecord record_;
+    std::set<int> surfaceFrames_, sheetFrames_;
+    std::vector<glm::dvec3> restSurface_; // m: the mapped surface at rest
+    std::optional<sim::LatticeState> posed_;
+    std::vector<render::Image> tiles_;
+    std::vector<std::string> captions_;
+    std::string failure_;
+};
+
+void describeSetup(const RunParts& parts, std::ostream& out) {
+    const sim::Organ& organ = parts.scene.organs.front();
+    out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
+        << grouped(parts.surface.file.faces.size()) << " faces\n"
+        << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
+        << grouped(parts.lattice.cells.size()) << " cells, spacing "
+        << shortNumber(1e3 * parts.lattice.spacing) << " mm\n";
+    if (parts.solver)
+        out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
+            << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
+            << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
+            << shortNumber(parts.step.margin) << ")\n";
+    if (parts.binding.tornEdgesFound > 0)
+        out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
+            << " left after flooding\n";
+    out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
+        << parts.context->info().renderer << "\n"
+        << std::flush;
+}
+
+} // namespace
+
+Result<int> runScene(const RunOptions& options, std::ostream& out) {
+    RunTimes times;
+    std::optional<Stopwatch> setupWatch(times.setup), totalWatch(times.total);
+    SEROSA_ASSIGN(
+        OutputFolder folder,
+        OutputFolder::check(options.out.empty() ? defaultOutputFolder(options) : options.out, options.force));
+    RunParts parts;
+    SEROSA_TRY(prepareRun(options, parts));
+    describeSetup(parts, out);
+    SEROSA_TRY(folder.create());
+    setupWatch.reset();
+
+    Run run(parts, folder, options.solver);
+    const InterruptGuard interrupt;
+    SEROSA_TRY(run.frames(interrupt));
+    SEROSA_TRY(run.contactSheet());
+    totalWatch.reset();
+    RunRecord& record = run.record();
+    record.times.setup = times.setup;
+    record.times.total = times.total;
+    const nlohmann::ordered_json summary = summaryJson(record);
+    SEROSA_TRY(writeFileAtomically(folder.file("summary.json"), std::string_view(summary.dump(1) + "\n")));
+    folder.keep();
+
+    out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten
+        << " surfaces, summary.json to " << folder.path().string() << "; largest displacement "
+        << shortNumber(1e3 * record.largestDisplacement) << " mm, "
+        << shortNumber(summary["timing"]["real_time_factor"].get<double>()) << " x real time\n";
+    if (record.end == "not finite")
+        return Error{run.failure(), exitCheckFailed};
+    return record.end == "interrupted" ? kExitInterrupted : int(exitOk);
+}
+
+} // namespace serosa::app

@@ -1,0 +1,175 @@
+// See app/summary.h. Key names carry the unit where there is one.
+
+#include "app/summary.h"
+
+#include "app/version.h"
+#include "shaders/shared_constants.h"
+#include "sim/scene_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace serosa::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vec(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+std::string wordOf(const char* table, const char* key, int index) {
+    return sim::findSceneKey(table, key)->words.at(std::size_t(index));
+}
+
+Json organJson(const RunRecord& record) {
+    const sim::Organ& organ = record.scene.organs.front();
+    const sim::Tissue& tissue = organ.tissue;
+    return {{"name", organ.name},
+            {"model", organ.model.filename().string()},
+            {"metres_per_unit", organ.lengthUnit},
+            {"vertices", record.vertices},
+            {"faces", record.faces},
+            {"young_Pa", tissue.young},
+            {"poisson", tissue.poisson},
+            {"density_kg_m3", tissue.density},
+            {"damping_time_s", tissue.dampingTime},
+            {"air_drag_1_s", tissue.airDrag}};
+}
+
+Json latticeJson(const RunRecord& record) {
+    const sim::Lattice& lattice = *record.lattice;
+    const double fillSum =
+        std::accumulate(lattice.cells.begin(), lattice.cells.end(), 0.0,
+                        [](double sum, const sim::LatticeCell& cell) { return sum + cell.fill; });
+    const double cellVolume = lattice.spacing * lattice.spacing * lattice.spacing;
+    return {{"nodes", lattice.nodeCount()},
+            {"fixed_nodes", record.fixedNodes},
+            {"cells", lattice.cells.size()},
+            {"spacing_m", lattice.spacing},
+            {"node_dims", {lattice.nodeDims.x, lattice.nodeDims.y, lattice.nodeDims.z}},
+            {"volume_m3", lattice.exactVolume},
+            {"filled_volume_m3", fillSum / 255 * cellVolume},
+            {"layout", record.layout->kind == SRS_LAYOUT_GRID ? "grid" : "rows"},
+            {"texture_size", {record.layout->width, record.layout->height}}};
+}
+
+Json stepJson(const sim::StableStep& step) {
+    return {{"time_step_s", step.timeStep},
+            {"steps_per_frame", step.stepsPerFrame},
+            {"bound_s", step.bound},
+            {"margin", step.margin},
+            {"stiffest_rate2_1_s2", step.stiffestRate2},
+            {"formula_rate2_1_s2", step.formulaRate2},
+            {"how", "power iteration on the rest lattice, never below 12 k/m; explicit step below the bound, "
+                    "damping included"}};
+}
+
+Json bindingJson(const render::SurfaceBinding& binding) {
+    return {{"vertices", binding.vertices.size()},
+            {"torn_edges_found", binding.tornEdgesFound},
+            {"torn_edges_left", binding.tornEdgesLeft},
+            {"constant_basis_vertices", binding.constantVertices},
+            {"bytes_per_vertex", binding.bytesPerVertex}};
+}
+
+Json toolsJson(const RunRecord& record) {
+    Json tools = Json::array();
+    for (std::size_t i = 0; i < record.scene.tools.size(); ++i) {
+        const sim::Tool& tool = record.scene.tools[i];
+        double largest = 0;
+        Json forces = Json::array();
+        for (const ToolForce& sample : record.toolForces) {
+            largest = std::max(largest, glm::length(sample.forces[i]));
+            forces.push_back({{"t_s", sample.time}, {"N", vec(sample.forces[i])}});
+        }
+        tools.push_back({{"name", tool.name},
+                         {"mode", wordOf("tool", "mode", int(tool.mode))},
+                         {"radius_m", tool.radius},
+                         {"largest_force_N", largest},
+                         {"force", std::move(forces)}});
+    }
+    return tools;
+}
+
+Json timingJson(const RunRecord& record) {
+    const RunTimes& times = record.times;
+    const double frames = std::max(1, record.framesDone);
+    const double steps = std::max(1.0, frames * record.step.stepsPerFrame);
+    const double simulated = record.framesDone / record.scene.frameRate;
+    const double pictures = std::max(1, record.picturesWritten);
+    return {{"ms_per_step", 1e3 * times.steps / steps},
+            {"ms_steps_per_frame", 1e3 * times.steps / frames},
+            {"ms_draw_per_picture", 1e3 * times.draw / pictures},
+            {"ms_per_frame", 1e3 * (times.steps / frames + times.draw / pictures)},
+            {"real_time_factor",
+             times.steps > 0 ? simulated / (times.steps + times.draw * frames / pictures) : 0},
+            {"setup_s", times.setup},
+            {"files_s", times.files},
+            {"total_s", times.total}};
+}
+
+} // namespace
+
+Displacement largestDisplacement(const sim::Lattice& lattice, const sim::LatticeState& state) {
+    Displacement result;
+    double largest2 = 0;
+    for (std::size_t node = 0; node < state.positions.size(); ++node) {
+        const glm::dvec3 moved = state.positions[node] - lattice.restPosition(node);
+        const double moved2 = glm::dot(moved, moved);
+        if (!std::isfinite(moved2))
+            return {0, node, false};
+        if (moved2 > largest2) {
+            largest2 = moved2;
+            result.node = node;
+        }
+    }
+    result.largest = std::sqrt(largest2) * lattice.spacing;
+    return result;
+}
+
+nlohmann::ordered_json summaryJson(const RunRecord& record) {
+    Json parts;
+    for (const auto& [name, version] : partVersions())
+        parts[name] = version;
+    Json energies = Json::array();
+    for (const EnergySample& sample : record.samples)
+        energies.push_back({{"t_s", sample.time},
+                            {"kinetic_J", sample.energies.kinetic},
+                            {"elastic_J", sample.energies.elastic},
+                            {"gravitational_J", sample.energies.gravitational},
+                            {"largest_displacement_m", sample.largestDisplacement}});
+    const sim::Scene& scene = record.scene;
+    return {{"schema", 1},
+            {"serosa", programVersion()},
+            {"parts", std::move(parts)},
+            {"gl",
+             {{"context", gpu::contextKindName(record.gl.kind)},
+              {"vendor", record.gl.vendor},
+              {"renderer", record.gl.renderer},
+              {"version", record.gl.version},
+              {"software", record.gl.software}}},
+            {"solver", record.solver},
+            {"mapping", wordOf("look", "mapping", int(scene.look.mapping))},
+            {"organ", organJson(record)},
+            {"lattice", latticeJson(record)},
+            {"step", stepJson(record.step)},
+            {"gravity_m_s2", vec(scene.gravity)},
+            {"frame_rate_Hz", scene.frameRate},
+            {"frames_asked", scene.frames()},
+            {"frames", record.framesDone},
+            {"end", record.end},
+            {"picture_size", {scene.output.width, scene.output.height}},
+            {"pictures", record.picturesWritten},
+            {"surfaces", record.surfacesWritten},
+            {"binding", bindingJson(*record.binding)},
+            {"largest_displacement_m", record.largestDisplacement},
+            {"energies", std::move(energies)},
+            {"tools", toolsJson(record)},
+            {"state_hash", record.stateHash},
+            {"timing", timingJson(record)}};
+}
+
+} // namespace serosa::app

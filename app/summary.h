@@ -1,0 +1,67 @@
+#pragma once
+// What a run found, and how it is written as summary.json (keys: docs/cli.md). Everything that differs
+// between two runs on one machine stands under `timing`.
+
+#include "gpu/context.h"
+#include "render/surface_binding.h"
+#include "sim/lattice.h"
+#include "sim/lattice_state.h"
+#include "sim/scene.h"
+#include "sim/solver.h"
+#include "sim/texture_layout.h"
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace serosa::app {
+
+struct EnergySample {
+    double time = 0; // s
+    sim::Energies energies;
+    double largestDisplacement = 0; // m
+};
+
+struct ToolForce {
+    double time = 0;                // s: end of the frame
+    std::vector<glm::dvec3> forces; // N on the organ, mean over the frame; one a tool
+};
+
+struct RunTimes { // s of wall time
+    double steps = 0, mapping = 0, draw = 0, files = 0, setup = 0, total = 0;
+};
+
+struct RunRecord {
+    sim::Scene scene;
+    std::string solver; // "fragment", "reference", "pose"
+    gpu::ContextInfo gl;
+    std::size_t vertices = 0, faces = 0;
+    const sim::Lattice* lattice = nullptr;
+    const sim::TextureLayout* layout = nullptr;
+    std::size_t fixedNodes = 0;
+    sim::StableStep step; // zero for a pose
+    const render::SurfaceBinding* binding = nullptr;
+    int framesDone = 0, picturesWritten = 0, surfacesWritten = 0;
+    std::string end = "complete";   // or "interrupted", "not finite"
+    double largestDisplacement = 0; // m, over the samples
+    std::vector<EnergySample> samples;
+    std::vector<ToolForce> toolForces;
+    std::string stateHash;
+    RunTimes times;
+};
+
+nlohmann::ordered_json summaryJson(const RunRecord& record);
+
+/// Largest distance of a node from rest, in metres, and the node. `finite` is false where a coordinate is not
+/// finite; the node is then the first such one.
+struct Displacement {
+    double largest = 0;
+    std::size_t node = 0;
+    bool finite = true;
+};
+Displacement largestDisplacement(const sim::Lattice& lattice, const sim::LatticeState& state);
+
+} // namespace serosa::app
