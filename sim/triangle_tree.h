@@ -1,7 +1,7 @@
 #pragma once
 // A tree of axis-aligned boxes over triangles, in float64: closest points, ray casts and box overlaps.
 // Closest point on a triangle: Ericson 2005, Real-Time Collision Detection, section 5.1.5; ray against
-// triangle: Moller & Trumbore 1997. The tree is built once, top-down, by the median of the longest axis of
+// triangle: Woop, Benthin & Wald 2013. The tree is built once, top-down, by the median of the longest axis of
 // the triangles' centres.
 //
 // Deterministic: of several triangles at the same distance (or hit at the same t) the lowest index wins,
