@@ -1,4 +1,4 @@
-// Buffers, vertex arrays and GPU timers.
+// Buffers and vertex arrays.
 
 #include "base/check.h"
 #include "gpu/handles.h"
@@ -75,38 +75,6 @@ void VertexArray::integerAttribute(int location, const Buffer& buffer, int compo
 
 void VertexArray::indices(const Buffer& buffer) {
     glVertexArrayElementBuffer(id_, buffer.id());
-}
-
-GpuTimer::GpuTimer(const std::string& label) {
-    checkContext(label);
-    glCreateQueries(GL_TIME_ELAPSED, 1, &id_);
-    labelObject(GL_QUERY, id_, label);
-}
-
-GpuTimer& GpuTimer::operator=(GpuTimer&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-}
-
-GpuTimer::~GpuTimer() {
-    if (id_) {
-        checkContext("a timer that dies");
-        glDeleteQueries(1, &id_);
-    }
-}
-
-void GpuTimer::begin() {
-    glBeginQuery(GL_TIME_ELAPSED, id_);
-}
-
-void GpuTimer::end() {
-    glEndQuery(GL_TIME_ELAPSED);
-}
-
-double GpuTimer::milliseconds() const {
-    GLuint64 nanoseconds = 0;
-    glGetQueryObjectui64v(id_, GL_QUERY_RESULT, &nanoseconds);
-    return 1e-6 * static_cast<double>(nanoseconds);
 }
 
 } // namespace serosa::gpu

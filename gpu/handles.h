@@ -7,6 +7,7 @@
 
 #include <glm/glm.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -121,8 +122,9 @@ public:
     void indices(const Buffer& buffer); // 32-bit indices
 };
 
-/// GPU time between begin and end; timers do not nest. On software GL the time is that of the CPU's
-/// rasterizer.
+/// Time that the GPU spends between begin and end (GL_TIME_ELAPSED); timers do not nest.
+/// llvmpipe answers that query with the time of one tile, so on software GL the timer finishes all work at
+/// both ends and reads the clock: right as a sum, but a pair of small passes no longer overlaps.
 class GpuTimer : public Handle {
 public:
     GpuTimer() = default;
@@ -132,8 +134,13 @@ public:
     ~GpuTimer();
     void begin();
     void end();
-    /// Waits for the result; milliseconds between begin and end.
+    /// Waits for the result; milliseconds between begin and end. Both must have been called.
     double milliseconds() const;
+
+private:
+    bool software_ = false;
+    bool running_ = false, ended_ = false;
+    std::chrono::steady_clock::time_point start_, stop_; // software only
 };
 
 } // namespace serosa::gpu
