@@ -15,16 +15,17 @@ uniform vec3 u_gravity;       // dt^2 g / h
 // Sums over the springs; weights are integers in units of k/1020, so that both ends sum the same.
 vec3 g_position, g_increment, g_force, g_normal;
 
-void addSpring(float weight, float rest, ivec2 texel) {
+void addSpring(float weight, float rest, float rest2, ivec2 texel) {
 #ifdef SRS_TEXEL_FETCH
     if (weight == 0.0) // outside of the texture a fetch is undefined
         texel = ivec2(0);
 #endif
     vec3 d = g_position - loadPosition(texel);
 #if SRS_EQUATION == 2
-    float inverse = inversesqrt(max(dot(d, d), 1e-12));
-    vec3 unit = d * inverse;
-    g_force += weight * (rest * unit - d);
+    // Scaled so that the square root is of 1 at rest: the rest state then has no force at all in float32.
+    float stretch = inversesqrt(max(dot(d, d) * (1.0 / rest2), 1e-12));
+    vec3 unit = d * (stretch * (1.0 / rest));
+    g_force += (weight * (stretch - 1.0)) * d;
 #else
     float len = max(length(d), 1e-6);
     vec3 unit = d / len;
@@ -57,23 +58,23 @@ float sumSprings(uvec4 info, vec3 position, vec3 increment) {
     float zBelow = yBelow.x + yBelow.y, zAbove = yAbove.x + yAbove.y;
     uint bits = info.x;
 
-    addSpring(connected(bits, 0) * x.y, 1.0, neighbourTexel(1, 0, 0, ROW_SAME));
-    addSpring(connected(bits, 1) * x.x, 1.0, neighbourTexel(-1, 0, 0, ROW_SAME));
-    addSpring(connected(bits, 2) * y.y, 1.0, neighbourTexel(0, 1, 0, ROW_Y));
-    addSpring(connected(bits, 3) * y.x, 1.0, neighbourTexel(0, -1, 0, ROW_y));
-    addSpring(connected(bits, 4) * zAbove, 1.0, neighbourTexel(0, 0, 1, ROW_Z));
-    addSpring(connected(bits, 5) * zBelow, 1.0, neighbourTexel(0, 0, -1, ROW_z));
-    addSpring(connected(bits, 6) * 2.0 * xy.w, diagonal, neighbourTexel(1, 1, 0, ROW_Y));
-    addSpring(connected(bits, 7) * 2.0 * xy.x, diagonal, neighbourTexel(-1, -1, 0, ROW_y));
-    addSpring(connected(bits, 8) * 2.0 * xy.y, diagonal, neighbourTexel(1, -1, 0, ROW_y));
-    addSpring(connected(bits, 9) * 2.0 * xy.z, diagonal, neighbourTexel(-1, 1, 0, ROW_Y));
-    addSpring(connected(bits, 10) * 2.0 * xAbove.y, diagonal, neighbourTexel(1, 0, 1, ROW_Z));
-    addSpring(connected(bits, 11) * 2.0 * xBelow.x, diagonal, neighbourTexel(-1, 0, -1, ROW_z));
-    addSpring(connected(bits, 12) * 2.0 * xBelow.y, diagonal, neighbourTexel(1, 0, -1, ROW_z));
-    addSpring(connected(bits, 13) * 2.0 * xAbove.x, diagonal, neighbourTexel(-1, 0, 1, ROW_Z));
-    addSpring(connected(bits, 14) * 2.0 * yAbove.y, diagonal, neighbourTexel(0, 1, 1, ROW_YZ));
-    addSpring(connected(bits, 15) * 2.0 * yBelow.x, diagonal, neighbourTexel(0, -1, -1, ROW_yz));
-    addSpring(connected(bits, 16) * 2.0 * yBelow.y, diagonal, neighbourTexel(0, 1, -1, ROW_Yz));
-    addSpring(connected(bits, 17) * 2.0 * yAbove.x, diagonal, neighbourTexel(0, -1, 1, ROW_yZ));
+    addSpring(connected(bits, 0) * x.y, 1.0, 1.0, neighbourTexel(1, 0, 0, ROW_SAME));
+    addSpring(connected(bits, 1) * x.x, 1.0, 1.0, neighbourTexel(-1, 0, 0, ROW_SAME));
+    addSpring(connected(bits, 2) * y.y, 1.0, 1.0, neighbourTexel(0, 1, 0, ROW_Y));
+    addSpring(connected(bits, 3) * y.x, 1.0, 1.0, neighbourTexel(0, -1, 0, ROW_y));
+    addSpring(connected(bits, 4) * zAbove, 1.0, 1.0, neighbourTexel(0, 0, 1, ROW_Z));
+    addSpring(connected(bits, 5) * zBelow, 1.0, 1.0, neighbourTexel(0, 0, -1, ROW_z));
+    addSpring(connected(bits, 6) * 2.0 * xy.w, diagonal, 2.0, neighbourTexel(1, 1, 0, ROW_Y));
+    addSpring(connected(bits, 7) * 2.0 * xy.x, diagonal, 2.0, neighbourTexel(-1, -1, 0, ROW_y));
+    addSpring(connected(bits, 8) * 2.0 * xy.y, diagonal, 2.0, neighbourTexel(1, -1, 0, ROW_y));
+    addSpring(connected(bits, 9) * 2.0 * xy.z, diagonal, 2.0, neighbourTexel(-1, 1, 0, ROW_Y));
+    addSpring(connected(bits, 10) * 2.0 * xAbove.y, diagonal, 2.0, neighbourTexel(1, 0, 1, ROW_Z));
+    addSpring(connected(bits, 11) * 2.0 * xBelow.x, diagonal, 2.0, neighbourTexel(-1, 0, -1, ROW_z));
+    addSpring(connected(bits, 12) * 2.0 * xBelow.y, diagonal, 2.0, neighbourTexel(1, 0, -1, ROW_z));
+    addSpring(connected(bits, 13) * 2.0 * xAbove.x, diagonal, 2.0, neighbourTexel(-1, 0, 1, ROW_Z));
+    addSpring(connected(bits, 14) * 2.0 * yAbove.y, diagonal, 2.0, neighbourTexel(0, 1, 1, ROW_YZ));
+    addSpring(connected(bits, 15) * 2.0 * yBelow.x, diagonal, 2.0, neighbourTexel(0, -1, -1, ROW_yz));
+    addSpring(connected(bits, 16) * 2.0 * yBelow.y, diagonal, 2.0, neighbourTexel(0, 1, -1, ROW_Yz));
+    addSpring(connected(bits, 17) * 2.0 * yAbove.x, diagonal, 2.0, neighbourTexel(0, -1, 1, ROW_yZ));
     return zBelow + zAbove;
 }
