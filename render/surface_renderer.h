@@ -24,10 +24,14 @@ struct View {
     std::vector<std::pair<glm::dvec3, double>> toolSpheres; // centre, radius, m, world
 };
 
+/// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.
+enum class VertexStage { undeformed, constant, corrected };
+
 class SurfaceRenderer {
 public:
-    /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for
-    /// it.
+    /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it
+    /// (either mapping: the other one is expressed over the same triangles). Needs a current context; the
+    /// renderer dies before it. Errors: shader errors of the driver.
     static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                           const SurfaceBinding& binding, const sim::StateTextures& state,
                                           int width, int height);
@@ -42,6 +46,15 @@ public:
     /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback),
     /// for surface files; `mapping` triangle or curvature.
     std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping);
+    /// Deformed unit normals, in mesh order, from the same stage.
+    std::vector<glm::dvec3> readDeformedNormals(const sim::StateTextures& state, sim::Mapping mapping);
+
+    /// For benchmarks: the indexed triangles with GL_RASTERIZER_DISCARD; nothing is drawn.
+    void drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage);
+    /// Bytes of vertex attributes that a mapped vertex takes.
+    static std::size_t bytesPerVertex();
+    /// Samples a pixel of the target.
+    int samples() const;
 
 private:
     struct Impl;

@@ -8,7 +8,7 @@
 #include "sim/triangle_tree.h"
 
 #include <algorithm>
-#include <array>
+#include <span>
 
 namespace serosa::render {
 

@@ -1,0 +1,58 @@
+#pragma once
+// What all drawing passes of one picture share: matrices and light, in lattice units and float32.
+
+#include "gpu/program.h"
+#include "render/camera.h"
+#include "shaders/shared_constants.h"
+#include "sim/lattice.h"
+#include "sim/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace serosa::render {
+
+using Spheres = std::vector<std::pair<glm::dvec3, double>>; // centre, radius, m, world
+
+struct Frame {
+    glm::mat4 clipFromLattice{1};
+    glm::vec4 eye{0, 0, 1, 0}; // lattice units, w = 1; or the direction to the eye, w = 0 (orthographic)
+    glm::vec2 size{1};         // pixels
+    glm::vec3 toKey{0, 1, 0}, toBack{0, 1, 0};
+    float key = 1, ambient = 1;
+    std::vector<glm::vec4> tools; // lattice units
+
+    void setLight(gpu::Program& program) const {
+        program.set("u_toKey", toKey).set("u_toBack", toBack).set("u_key", key);
+        program.set("u_ambient", ambient).set("u_eye", eye);
+    }
+};
+
+/// Products are formed in double: an organ may lie metres from the origin and be drawn to micrometres.
+inline Frame makeFrame(const sim::Lattice& lattice, const CameraView& camera, const sim::Light& light,
+                       const Spheres& tools, int width, int height) {
+    glm::dmat4 worldFromLattice(lattice.spacing);
+    worldFromLattice[3] = glm::dvec4(lattice.origin, 1);
+    const glm::dmat4 latticeAxes =
+        glm::transpose(camera.cameraFromWorld); // rows: right, up, back, in the world
+    const glm::dvec3 right(latticeAxes[0]), up(latticeAxes[1]), back(latticeAxes[2]);
+    const bool orthographic = camera.clipFromCamera[2][3] == 0;
+
+    Frame frame;
+    frame.clipFromLattice = glm::mat4(camera.clipFromCamera * camera.cameraFromWorld * worldFromLattice);
+    frame.eye = orthographic ? glm::vec4(back, 0) : glm::vec4(lattice.toLattice(camera.eye), 1);
+    frame.size = {width, height};
+    frame.toKey = glm::vec3(glm::normalize(-light.direction));
+    frame.toBack =
+        glm::vec3(glm::normalize(-0.75 * right + 0.45 * up - 0.55 * back)); // left, above, behind the organ
+    frame.key = float(light.intensity);
+    frame.ambient = float(light.ambient);
+    for (const auto& [centre, radius] : tools)
+        frame.tools.emplace_back(lattice.toLattice(centre), radius / lattice.spacing);
+    return frame;
+}
+
+} // namespace serosa::render

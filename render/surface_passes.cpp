@@ -1,0 +1,218 @@
+#include "render/surface_passes.h"
+
+#include "base/check.h"
+#include "gpu/gl.h"
+#include "render/baked_occlusion.h"
+#include "render/surface_vertices.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace serosa::render {
+
+namespace {
+
+using sim::SurfaceColour;
+
+constexpr glm::u8vec3 kFlesh{178, 78, 68}; // sRGB, where the mesh has no colours
+
+/// Square root of the linear value: the vertex stage squares it, and 8 bits suffice in the dark.
+std::uint8_t rootOfLinear(std::uint8_t srgb) {
+    const double s = srgb / 255.0;
+    const double linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    return std::uint8_t(std::lround(255 * std::sqrt(linear)));
+}
+
+glm::u8vec4 vertexColour(const glm::u8vec3& srgb, float open) {
+    return {rootOfLinear(srgb.r), rootOfLinear(srgb.g), rootOfLinear(srgb.b), std::lround(255 * open)};
+}
+
+std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh) {
+    const std::vector<float> open = bakeOcclusion(mesh);
+    std::vector<glm::u8vec4> colours;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        colours.push_back(vertexColour(mesh.colours.empty() ? kFlesh : mesh.colours[v], open[v]));
+    return colours;
+}
+
+template <class T>
+std::vector<T> inNewOrder(const std::vector<T>& items, const std::vector<std::uint32_t>& newIndex) {
+    std::vector<T> ordered(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        ordered[newIndex[i]] = items[i];
+    return ordered;
+}
+
+gpu::ShaderDefine stageDefine(SurfaceStage stage) {
+    return stage == SurfaceStage::nodes        ? gpu::ShaderDefine{"SURFACE_NODES", ""}
+           : stage == SurfaceStage::undeformed ? gpu::ShaderDefine{"SURFACE_STATIC", ""}
+                                               : gpu::ShaderDefine{"SURFACE_MAPPED", ""};
+}
+
+} // namespace
+
+Status SurfacePasses::createPrograms(bool anyConstant) {
+    const gpu::ShaderLibrary library;
+    for (const SurfaceStage stage :
+         {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected, SurfaceStage::nodes}) {
+        const bool corrected = stage == SurfaceStage::corrected;
+        const std::vector<gpu::ShaderDefine> defines = {stageDefine(stage),
+                                                        {"MAPPING_BASIS", !corrected    ? "0"
+                                                                          : anyConstant ? "2"
+                                                                                        : "1"}};
+        for (const SurfaceColour colour : {SurfaceColour::tissue, SurfaceColour::dynamicNormal}) {
+            std::vector<gpu::ShaderDefine> all = defines;
+            if (colour == SurfaceColour::dynamicNormal)
+                all.push_back({"SURFACE_NORMAL_COLOURS", ""});
+            SEROSA_ASSIGN(gpu::Program program,
+                          gpu::Program::create(library, {"surface.vert", "surface.frag"}, all));
+            programs_.emplace(std::pair(stage, colour), std::move(program));
+        }
+        SEROSA_ASSIGN(gpu::Program capture,
+                      gpu::Program::create(library, {"surface.vert"}, defines, {"v_position", "v_normal"}));
+        captures_.emplace(stage, std::move(capture));
+    }
+    return {};
+}
+
+void SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                   const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+    const CacheOrder order = cacheOrder(metres);
+    newIndex_ = order.newIndex;
+    indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(order.indices));
+    indexCount_ = int(order.indices.size());
+    const std::vector<glm::u8vec4> colours = vertexColours(metres);
+
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
+        const bool given = mapping == binding.mapping;
+        const auto vertices =
+            inNewOrder(mappedVertices(given ? binding : expressBinding(binding, lattice, metres, mapping),
+                                      layout, colours),
+                       newIndex_);
+        Geometry& geometry =
+            geometry_[mapping == sim::Mapping::triangle ? SurfaceStage::constant : SurfaceStage::corrected];
+        geometry.vertices = gpu::Buffer("mapped surface", std::span<const MappedVertex>(vertices));
+        geometry.array = gpu::VertexArray("mapped surface");
+        const int stride = sizeof(MappedVertex);
+        geometry.array.integerAttribute(0, geometry.vertices, 3, GL_UNSIGNED_INT, stride,
+                                        offsetof(MappedVertex, texels));
+        geometry.array.attribute(1, geometry.vertices, 2, GL_UNSIGNED_SHORT, true, stride,
+                                 offsetof(MappedVertex, weights));
+        geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
+                                 offsetof(MappedVertex, offset));
+        geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
+                                        offsetof(MappedVertex, normal));
+        geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
+                                 offsetof(MappedVertex, colour));
+        geometry.array.indices(indices_);
+    }
+
+    const auto still = inNewOrder(staticVertices(lattice, metres, colours), newIndex_);
+    Geometry& geometry = geometry_[SurfaceStage::undeformed];
+    geometry.vertices = gpu::Buffer("undeformed surface", std::span<const StaticVertex>(still));
+    geometry.array = gpu::VertexArray("undeformed surface");
+    const int stride = sizeof(StaticVertex);
+    geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
+                             offsetof(StaticVertex, position));
+    geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
+                                    offsetof(StaticVertex, normal));
+    geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
+                             offsetof(StaticVertex, colour));
+    geometry.array.indices(indices_);
+
+    // One-to-one: the boundary's triangles, one vertex a surface node.
+    std::vector<std::uint32_t> vertexOfNode(lattice.nodeCount(), ~0U), nodeIndices, texels;
+    for (const glm::uvec3& t : lattice.boundary)
+        for (int i = 0; i < 3; ++i) {
+            if (vertexOfNode[t[i]] == ~0U) {
+                vertexOfNode[t[i]] = std::uint32_t(texels.size());
+                texels.push_back(layout.texelOfNode[t[i]].y << 16 | layout.texelOfNode[t[i]].x);
+            }
+            nodeIndices.push_back(vertexOfNode[t[i]]);
+        }
+    Geometry& nodes = geometry_[SurfaceStage::nodes];
+    nodes.vertices = gpu::Buffer("surface nodes", std::span<const std::uint32_t>(texels));
+    nodeIndices_ = gpu::Buffer("surface node indices", std::span<const std::uint32_t>(nodeIndices));
+    nodeIndexCount_ = int(nodeIndices.size());
+    nodes.array = gpu::VertexArray("surface nodes");
+    nodes.array.integerAttribute(0, nodes.vertices, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), 0);
+    nodes.array.indices(nodeIndices_);
+}
+
+Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                            const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+    SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
+    SurfacePasses passes;
+    const bool corrected = binding.mapping == sim::Mapping::curvature;
+    SEROSA_TRY(passes.createPrograms(!corrected || binding.constantVertices > 0));
+    passes.createGeometry(lattice, metres, binding, layout);
+    return passes;
+}
+
+gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
+                                     SurfaceColour colour) {
+    gpu::Program& program = programs_.at({stage, colour});
+    program.set("u_clipFromLattice", frame.clipFromLattice);
+    if (stage != SurfaceStage::undeformed)
+        program.texture("t_positions", state.positions());
+    if (stage == SurfaceStage::nodes)
+        program.set("u_colour", glm::vec4(vertexColour(kFlesh, 1)) / 255.0F);
+    frame.setLight(program);
+    std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
+    for (std::size_t i = 0; i < tools.size() && i < frame.tools.size(); ++i)
+        tools[i] = frame.tools[i];
+    program.set("u_tools", std::span<const glm::vec4>(tools));
+    return program;
+}
+
+void SurfacePasses::drawTriangles(SurfaceStage stage) {
+    glBindVertexArray(geometry_.at(stage).array.id());
+    glDrawElements(GL_TRIANGLES, stage == SurfaceStage::nodes ? nodeIndexCount_ : indexCount_,
+                   GL_UNSIGNED_INT, nullptr);
+}
+
+void SurfacePasses::draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
+                         SurfaceColour colour) {
+    prepare(state, frame, stage, colour).use();
+    drawTriangles(stage);
+}
+
+void SurfacePasses::drawDiscarded(const sim::StateTextures& state, SurfaceStage stage) {
+    prepare(state, Frame{}, stage, SurfaceColour::tissue).use();
+    glEnable(GL_RASTERIZER_DISCARD);
+    drawTriangles(stage);
+    glDisable(GL_RASTERIZER_DISCARD);
+}
+
+SurfacePasses::Captured SurfacePasses::capture(const sim::StateTextures& state, SurfaceStage stage) {
+    SEROSA_CHECK(stage != SurfaceStage::nodes, "node positions are in the state texture already");
+    gpu::Program& program = captures_.at(stage);
+    program.set("u_clipFromLattice", glm::mat4(1));
+    if (stage != SurfaceStage::undeformed)
+        program.texture("t_positions", state.positions());
+    struct Item {
+        glm::vec3 position, normal;
+    };
+    std::vector<Item> items(newIndex_.size());
+    const std::size_t bytes = items.size() * sizeof(Item);
+    const gpu::Buffer captured("captured vertices", bytes, nullptr);
+    program.use();
+    glBindVertexArray(geometry_.at(stage).array.id());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, captured.id());
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, GLsizei(items.size()));
+    glEndTransformFeedback();
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    glDisable(GL_RASTERIZER_DISCARD);
+    captured.download(0, bytes, items.data());
+
+    Captured result;
+    for (const std::uint32_t index : newIndex_) {
+        result.positions.push_back(items[index].position);
+        result.normals.push_back(items[index].normal);
+    }
+    return result;
+}
+
+} // namespace serosa::render

@@ -1,0 +1,55 @@
+#pragma once
+// The surface on the GPU: vertex buffers for both bases, for the undeformed twin and for the lattice's own
+// boundary, and one program for each way to draw them (shaders/surface.vert, surface.frag).
+
+#include "base/result.h"
+#include "gpu/program.h"
+#include "render/frame.h"
+#include "render/surface_binding.h"
+#include "sim/state_textures.h"
+
+#include <map>
+
+namespace serosa::render {
+
+enum class SurfaceStage { undeformed, constant, corrected, nodes };
+
+class SurfacePasses {
+public:
+    static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
+
+    /// Draws into the bound target with its depth test.
+    void draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
+              sim::SurfaceColour colour);
+    /// The same vertex stage with nothing rasterized.
+    void drawDiscarded(const sim::StateTextures& state, SurfaceStage stage);
+
+    /// Transform feedback of the vertex stage, mesh order. Positions in lattice units, unit normals.
+    struct Captured {
+        std::vector<glm::vec3> positions, normals;
+    };
+    Captured capture(const sim::StateTextures& state, SurfaceStage stage);
+
+private:
+    struct Geometry {
+        gpu::VertexArray array;
+        gpu::Buffer vertices;
+    };
+    SurfacePasses() = default;
+    Status createPrograms(bool anyConstant);
+    void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
+                          sim::SurfaceColour colour);
+    void drawTriangles(SurfaceStage stage);
+
+    std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program> programs_;
+    std::map<SurfaceStage, gpu::Program> captures_;
+    std::map<SurfaceStage, Geometry> geometry_;
+    gpu::Buffer indices_, nodeIndices_;
+    int indexCount_ = 0, nodeIndexCount_ = 0;
+    std::vector<std::uint32_t> newIndex_; // buffer index of each mesh vertex
+};
+
+} // namespace serosa::render

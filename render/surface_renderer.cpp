@@ -1,0 +1,117 @@
+#include "render/surface_renderer.h"
+
+#include "base/check.h"
+#include "gpu/gl.h"
+#include "render/frame.h"
+#include "render/lattice_overlay.h"
+#include "render/picture_target.h"
+#include "render/surface_passes.h"
+#include "render/surface_vertices.h"
+#include "render/tool_spheres.h"
+
+namespace serosa::render {
+
+struct SurfaceRenderer::Impl {
+    sim::Lattice placement; // spacing and origin only: metres from lattice units
+    SurfacePasses surface;
+    LatticeOverlay lattice;
+    ToolSpheres tools;
+    gpu::Program backdrop;
+    gpu::VertexArray empty;
+    PictureTarget target;
+};
+
+namespace {
+
+SurfaceStage stageOf(sim::Mapping mapping) {
+    switch (mapping) {
+    case sim::Mapping::oneToOne:
+        return SurfaceStage::nodes;
+    case sim::Mapping::triangle:
+        return SurfaceStage::constant;
+    case sim::Mapping::curvature:
+        break;
+    }
+    return SurfaceStage::corrected;
+}
+
+} // namespace
+
+SurfaceRenderer::SurfaceRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SurfaceRenderer::SurfaceRenderer(SurfaceRenderer&&) noexcept = default;
+SurfaceRenderer& SurfaceRenderer::operator=(SurfaceRenderer&&) noexcept = default;
+SurfaceRenderer::~SurfaceRenderer() = default;
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                                const SurfaceBinding& binding,
+                                                const sim::StateTextures& state, int width, int height) {
+    SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, state.layout()));
+    SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, state.layout()));
+    SEROSA_ASSIGN(ToolSpheres tools, ToolSpheres::create());
+    SEROSA_ASSIGN(gpu::Program backdrop,
+                  gpu::Program::create(gpu::ShaderLibrary(), {"pass.vert", "backdrop.frag"}));
+    sim::Lattice placement;
+    placement.spacing = lattice.spacing;
+    placement.origin = lattice.origin;
+    return SurfaceRenderer(std::make_unique<Impl>(
+        Impl{std::move(placement), std::move(surface), std::move(overlay), std::move(tools),
+             std::move(backdrop), gpu::VertexArray("no attributes"), PictureTarget(width, height)}));
+}
+
+void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
+    Impl& in = *impl_;
+    const Spheres tools = view.look.tools ? view.toolSpheres : Spheres{};
+    const Frame frame =
+        makeFrame(in.placement, view.camera, view.light, tools, in.target.width(), in.target.height());
+    in.target.begin();
+    glDisable(GL_DEPTH_TEST);
+    in.backdrop.set("u_size", frame.size);
+    in.backdrop.use();
+    gpu::drawFullScreen(in.empty);
+    glEnable(GL_DEPTH_TEST);
+    if (view.look.surface)
+        in.surface.draw(state, frame, stageOf(view.look.mapping), view.look.colour);
+    in.tools.draw(frame);
+    if (view.look.lattice)
+        in.lattice.draw(state, frame,
+                        view.look.surface ? LatticeOverlay::Extent::boundary
+                                          : LatticeOverlay::Extent::everything,
+                        view.look.surface && view.look.colour == sim::SurfaceColour::dynamicNormal
+                            ? LatticeOverlay::Ink::dark
+                            : LatticeOverlay::Ink::light);
+    in.target.end();
+}
+
+Image SurfaceRenderer::readImage() const {
+    return impl_->target.read();
+}
+
+std::vector<glm::dvec3> SurfaceRenderer::readDeformedPositions(const sim::StateTextures& state,
+                                                               sim::Mapping mapping) {
+    std::vector<glm::dvec3> metres;
+    for (const glm::vec3& q : impl_->surface.capture(state, stageOf(mapping)).positions)
+        metres.push_back(impl_->placement.toWorld(q));
+    return metres;
+}
+
+std::vector<glm::dvec3> SurfaceRenderer::readDeformedNormals(const sim::StateTextures& state,
+                                                             sim::Mapping mapping) {
+    const std::vector<glm::vec3> normals = impl_->surface.capture(state, stageOf(mapping)).normals;
+    return {normals.begin(), normals.end()};
+}
+
+void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage) {
+    impl_->surface.drawDiscarded(state, stage == VertexStage::undeformed ? SurfaceStage::undeformed
+                                        : stage == VertexStage::constant ? SurfaceStage::constant
+                                                                         : SurfaceStage::corrected);
+}
+
+std::size_t SurfaceRenderer::bytesPerVertex() {
+    return sizeof(MappedVertex);
+}
+
+int SurfaceRenderer::samples() const {
+    return impl_->target.samples();
+}
+
+} // namespace serosa::render
