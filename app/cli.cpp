@@ -1,0 +1,407 @@
+// CLI11 reads the options; each command has one function that adds it, and leaves what to do in
+// `Choice::action`.
+
+#include "app/cli.h"
+
+#include "app/commands.h"
+#include "app/doctor.h"
+#include "app/run.h"
+#include "app/verify.h"
+#include "app/version.h"
+#include "models/phantom.h"
+#include "shaders/shared_constants.h"
+#include "sim/quantity.h"
+#include "sim/scene_keys.h"
+#include "sim/suggest.h"
+
+#include <CLI/CLI.hpp>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <new>
+
+namespace serosa::app {
+
+namespace {
+
+/// What the user asked for: set by the command's callback, run after all of the line is read.
+struct Choice {
+    std::function<Result<int>()> action;
+    int verbosity = 0;
+};
+
+std::string oneLine(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+        text.pop_back();
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            c = ' ';
+    return text;
+}
+
+int report(const Error& error) {
+    std::cerr << "serosa: error: " << oneLine(error.message) << "\n";
+    return error.exitCode;
+}
+
+/// The index of a word, or an error that names the option.
+Result<int> wordIndex(const std::string& option, const std::string& text,
+                      const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (text == words[i])
+            return int(i);
+    return Error{option + ": unknown value " + sim::inQuotes(text) + sim::suggestion(text, words)};
+}
+
+Result<glm::ivec2> parseSize(const std::string& text) {
+    glm::ivec2 size(0);
+    char rest = 0;
+    if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2)
+        return Error{"--size: " + sim::inQuotes(text) +
+                     " is not a size: write width x height in pixels, such as 960x540"};
+    const sim::ValueRange range = sim::findSceneKey("output", "size")->range;
+    if (!range.holds(size.x) || !range.holds(size.y))
+        return Error{"--size: " + sim::inQuotes(text) + ": each side goes " + range.text() + " pixels"};
+    return size;
+}
+
+Result<double> parseSpacing(const std::string& text) {
+    Result<double> spacing = sim::parseQuantity(text, sim::Dimension::length);
+    if (!spacing)
+        return Error{"--spacing: " + spacing.error().message};
+    if (!(*spacing > 0))
+        return Error{"--spacing: " + sim::inQuotes(text) + " is not greater than 0"};
+    return spacing;
+}
+
+Result<Injection> parseInjection(const std::string& text) {
+    const std::string name = text.substr(0, text.find('='));
+    const std::string value = name.size() < text.size() ? text.substr(name.size() + 1) : "";
+    SEROSA_ASSIGN(const int fault, wordIndex("--inject", name, {"stiffness", "drop-spring", "stale-normal"}));
+    Injection injection{Fault(fault + 1), 1};
+    if (injection.fault != Fault::stiffness && name.size() < text.size())
+        return Error{"--inject: " + name + " takes no value"};
+    if (injection.fault == Fault::stiffness) {
+        char* end = nullptr;
+        injection.factor = std::strtod(value.c_str(), &end);
+        if (value.empty() || *end != '\0' || !(injection.factor > 0 && injection.factor < 100))
+            return Error{"--inject: stiffness needs a factor from 0 to 100, such as stiffness=1.05"};
+    }
+    return injection;
+}
+
+struct RunArguments {
+    std::string scene, model, lengthUnit, solver = "fragment", gl = "auto", size, mapping, out, spacing,
+                                          layout = "auto";
+    int frames = 0;
+    std::size_t nodes = 0;
+    bool force = false;
+};
+
+Result<int> run(const RunArguments& given) {
+    RunOptions options;
+    if (given.scene.empty() == given.model.empty())
+        return Error{
+            given.scene.empty()
+                ? "run needs a scene file, or --model FILE with --length-unit U (see 'serosa run --help')"
+                : "run takes a scene file or --model, not both"};
+    if (!given.model.empty() && given.lengthUnit.empty())
+        return Error{"--model needs --length-unit: a mesh file has no unit (mm, cm, m, um, in)"};
+    if (given.model.empty() && !given.lengthUnit.empty())
+        return Error{"--length-unit belongs to --model; a scene file says length_unit"};
+    options.scene = given.scene;
+    options.model = given.model;
+    options.lengthUnit = given.lengthUnit;
+    SEROSA_TRY(wordIndex("--solver", given.solver, {"fragment", "reference"}));
+    options.solver = given.solver;
+    SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
+    SEROSA_ASSIGN(const int layout, wordIndex("--layout", given.layout, {"auto", "grid", "rows"}));
+    options.layout = layout == 0 ? -1 : layout == 1 ? SRS_LAYOUT_GRID : SRS_LAYOUT_ROWS;
+    if (given.frames > 0)
+        options.frames = given.frames;
+    if (!given.size.empty()) {
+        SEROSA_ASSIGN(const glm::ivec2 size, parseSize(given.size));
+        options.width = size.x;
+        options.height = size.y;
+    }
+    if (!given.mapping.empty()) {
+        SEROSA_ASSIGN(const int mapping,
+                      wordIndex("--mapping", given.mapping, sim::findSceneKey("look", "mapping")->words));
+        options.mapping = sim::Mapping(mapping);
+    }
+    if (given.nodes > 0)
+        options.nodes = given.nodes;
+    if (!given.spacing.empty()) {
+        SEROSA_ASSIGN(options.spacing, parseSpacing(given.spacing));
+    }
+    options.out = given.out;
+    options.force = given.force;
+    return runScene(options, std::cout);
+}
+
+void addGlOption(CLI::App& command, std::string& gl) {
+    command
+        .add_option("--gl", gl,
+                    "OpenGL context: auto (a GPU's EGL device, EGL, then OSMesa), egl, egl-device, osmesa")
+        ->default_str("auto");
+}
+
+void addRun(CLI::App& app, Choice& choice) {
+    CLI::App* command =
+        app.add_subcommand("run", "Simulate a scene or a model; write pictures, surfaces, summary.json");
+    auto given = std::make_shared<RunArguments>();
+    command->add_option("scene", given->scene, "scene file (docs/scene.md)")->type_name("SCENE");
+    command
+        ->add_option("--model", given->model,
+                     "instead of a scene: a closed surface (OBJ, PLY, OFF, STL) with a default tissue (5 "
+                     "kPa) and probe")
+        ->type_name("FILE");
+    command
+        ->add_option("--length-unit", given->lengthUnit, "unit of --model's coordinates: mm, cm, m, um, in")
+        ->type_name("U");
+    command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")
+        ->type_name("DIR");
+    command->add_flag("--force", given->force,
+                      "write into a folder that holds something; results of an earlier run are replaced");
+    command
+        ->add_option("--frames", given->frames,
+                     "number of frames, instead of the scene's duration (default model: 120)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    command->add_option("--size", given->size, "size of the pictures in pixels (default: 960x960)")
+        ->type_name("WxH");
+    command
+        ->add_option("--mapping", given->mapping,
+                     "how the surface follows the lattice: one-to-one, triangle, curvature")
+        ->type_name("M");
+    command->add_option("--nodes", given->nodes, "lattice nodes aimed at (default: 20000)")
+        ->type_name("N")
+        ->check(CLI::Range(8, 1000000000));
+    command
+        ->add_option("--spacing", given->spacing,
+                     "lattice spacing with its unit, such as \"2.5 mm\", instead of --nodes")
+        ->type_name("L")
+        ->excludes("--nodes");
+    command
+        ->add_option("--solver", given->solver,
+                     "fragment (on the GPU) or reference (CPU, double precision, slow)")
+        ->default_str("fragment");
+    command
+        ->add_option("--layout", given->layout,
+                     "textures of the lattice: auto (by how full its grid is), grid, rows")
+        ->default_str("auto");
+    addGlOption(*command, given->gl);
+    command->footer(
+        "Examples:\n"
+        "  serosa run heart.toml\n"
+        "  serosa run --model liver.stl --length-unit mm --nodes 5000 --frames 60 --out liver\n"
+        "Exit codes: 0 done, 1 the state ran away, 2 bad input, 5 no OpenGL context, 130 interrupted.");
+    command->callback([given, &choice] { choice.action = [given] { return run(*given); }; });
+}
+
+void addInspect(CLI::App& app, Choice& choice) {
+    CLI::App* command = app.add_subcommand("inspect", "Say what a mesh is and what lattice it would give");
+    struct Arguments {
+        std::string file, lengthUnit, spacing;
+        std::size_t nodes = 20000;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("file", given->file, "surface: OBJ, PLY, OFF or STL")->required()->type_name("FILE");
+    command->add_option("--length-unit", given->lengthUnit, "unit of its coordinates: mm, cm, m, um, in")
+        ->type_name("U");
+    command->add_option("--nodes", given->nodes, "lattice nodes aimed at")
+        ->type_name("N")
+        ->check(CLI::Range(8, 1000000000))
+        ->default_str("20000");
+    command
+        ->add_option("--spacing", given->spacing, "lattice spacing, such as \"2.5 mm\", instead of --nodes")
+        ->type_name("L")
+        ->excludes("--nodes");
+    command->footer("Example:\n  serosa inspect liver.stl --length-unit mm\n"
+                    "Exit codes: 0 usable, 2 unreadable, or no closed solid.");
+    command->callback([given, &choice] {
+        choice.action = [given]() -> Result<int> {
+            std::optional<double> spacing;
+            if (!given->spacing.empty()) {
+                if (given->lengthUnit.empty())
+                    return Error{"--spacing needs --length-unit: without it the mesh has no unit"};
+                SEROSA_ASSIGN(spacing, parseSpacing(given->spacing));
+            }
+            return inspectModel(given->file, given->lengthUnit, given->nodes, spacing, std::cout);
+        };
+    });
+}
+
+void addScene(CLI::App& app, Choice& choice) {
+    CLI::App* scene = app.add_subcommand("scene", "Check or explain a scene file");
+    scene->require_subcommand(1);
+    auto file = std::make_shared<std::string>();
+    CLI::App* check = scene->add_subcommand("check", "Check a scene, its model and its lattice; run nothing");
+    check->add_option("file", *file, "scene file")->required()->type_name("SCENE");
+    check->callback([file, &choice] { choice.action = [file] { return checkSceneFile(*file, std::cout); }; });
+    CLI::App* explain = scene->add_subcommand(
+        "explain", "Print every value in SI units, where it comes from, and what follows");
+    explain->add_option("file", *file, "scene file")->required()->type_name("SCENE");
+    explain->callback(
+        [file, &choice] { choice.action = [file] { return explainSceneFile(*file, std::cout); }; });
+    CLI::App* keys =
+        scene->add_subcommand("keys", "Print the reference of all keys of a scene file (Markdown)");
+    keys->callback([&choice] { choice.action = [] { return printSceneKeys(std::cout); }; });
+    scene->footer("Examples:\n  serosa scene check heart.toml\n  serosa scene explain heart.toml");
+}
+
+void addPhantom(CLI::App& app, Choice& choice) {
+    CLI::App* command = app.add_subcommand("phantom", "Generate an organ, in millimetres");
+    struct Arguments {
+        std::string name, file;
+        std::size_t faces = 0;
+        bool force = false;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("name", given->name, "which one (below)")->required()->type_name("NAME");
+    command->add_option("--faces", given->faces, "at least so many faces, at most 5% more")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000000));
+    command->add_option("-o,--output", given->file, "file to write: .ply, .obj, .off or .stl")
+        ->required()
+        ->type_name("FILE");
+    command->add_flag("--force", given->force, "replace an existing file");
+    std::string list = "Phantoms:\n";
+    for (const models::PhantomInfo& info : models::phantoms())
+        list += "  " + info.name + std::string(info.name.size() < 8 ? 8 - info.name.size() : 1, ' ') +
+                info.description + " (default " + std::to_string(info.defaultFaces) + " faces)\n";
+    command->footer(list + "Example:\n  serosa phantom heart --faces 50000 -o heart.ply");
+    command->callback([given, &choice] {
+        choice.action = [given] {
+            return writePhantom(given->name, given->faces, given->file, given->force, std::cout);
+        };
+    });
+}
+
+void addVerify(CLI::App& app, Choice& choice) {
+    CLI::App* command =
+        app.add_subcommand("verify", "Verify this program on this machine against known results");
+    struct Arguments {
+        std::vector<std::string> groups;
+        std::string out, gl = "auto", inject;
+        bool allowSkip = false, full = false;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("groups", given->groups, "groups to run; all without")->type_name("GROUP");
+    command->add_option("--out", given->out, "folder for verify.json (docs/cli.md)")->type_name("DIR");
+    command->add_flag("--full", given->full, "every figure at its full length (slow)");
+    command->add_flag("--allow-skip", given->allowSkip, "a check that cannot run here is no failure");
+    command
+        ->add_option(
+            "--inject", given->inject,
+            "put a fault in, to see the group that owns it fail: stiffness=1.05, drop-spring, stale-normal")
+        ->type_name("FAULT");
+    addGlOption(*command, given->gl);
+    std::string list = "Groups:\n";
+    for (const VerifyGroup& group : verifyGroups())
+        list += "  " + group.name + std::string(group.name.size() < 9 ? 9 - group.name.size() : 1, ' ') +
+                group.description + "\n";
+    command->footer(list +
+                    "Examples:\n  serosa verify\n  serosa verify solver --out report\n"
+                    "Exit codes: 0 all passed, 1 a check failed, 2 unknown group, 5 no OpenGL context.");
+    command->callback([given, &choice] {
+        choice.action = [given]() -> Result<int> {
+            VerifyOptions options;
+            SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given->gl));
+            if (!given->inject.empty()) {
+                SEROSA_ASSIGN(options.inject, parseInjection(given->inject));
+            }
+            options.full = given->full;
+            return runVerify(given->groups, options, given->out, given->allowSkip, std::cout);
+        };
+    });
+}
+
+void addDoctor(CLI::App& app, Choice& choice) {
+    CLI::App* command =
+        app.add_subcommand("doctor", "Say what this machine's OpenGL offers, what is missing, what to do");
+    command->footer(doctorHelp());
+    command->callback([&choice] { choice.action = []() -> Result<int> { return runDoctor(std::cout); }; });
+}
+
+/// Logs go to stderr and are quiet but for errors: a failed command says one line.
+void setUpLog(int verbosity) {
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("serosa", std::make_shared<spdlog::sinks::stderr_sink_st>()));
+    spdlog::set_pattern("serosa: %l: %v");
+    spdlog::set_level(verbosity == 0   ? spdlog::level::err
+                      : verbosity == 1 ? spdlog::level::info
+                                       : spdlog::level::debug);
+}
+
+/// The command that a usage error belongs to, for the hint.
+std::string commandName(const CLI::App& app) {
+    std::string name = "serosa";
+    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+        at = at->get_subcommands().front();
+        name += " " + at->get_name();
+    }
+    return name;
+}
+
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& problem, int argc, char** argv) {
+    std::string message = oneLine(problem.what());
+    // An unknown command is an extra argument to CLI11: name the nearest one instead.
+    if (app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-') {
+        std::vector<std::string> names;
+        for (const CLI::App* command : app.get_subcommands(nullptr))
+            names.push_back(command->get_name());
+        message = "unknown command " + sim::inQuotes(argv[1]) + sim::suggestion(argv[1], names);
+    }
+    return message + " (see '" + commandName(app) + " --help')";
+}
+
+int runChecked(int argc, char** argv) {
+    CLI::App app("Serosa simulates soft organs in real time: a coarse lattice of springs moves, and a "
+                 "detailed surface follows.",
+                 "serosa");
+    app.set_version_flag("--version", std::string("serosa ") + programVersion());
+    app.require_subcommand(1);
+    app.fallthrough();
+    Choice choice;
+    app.add_flag("-v,--verbose", choice.verbosity, "log to stderr; -vv says more");
+    addRun(app, choice);
+    addInspect(app, choice);
+    addScene(app, choice);
+    addPhantom(app, choice);
+    addVerify(app, choice);
+    addDoctor(app, choice);
+    app.footer("First steps:\n"
+               "  serosa phantom heart -o heart.ply\n"
+               "  serosa run --model heart.ply --length-unit mm\n"
+               "'serosa COMMAND --help' says more. Exit codes: 0 ok, 1 a check failed, 2 bad input, 5 no "
+               "OpenGL context.");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+        if (problem.get_exit_code() == 0)
+            return app.exit(problem); // help and version
+        return report(Error{usageMessage(app, problem, argc, argv)});
+    }
+    setUpLog(choice.verbosity);
+    const Result<int> code = choice.action();
+    return code ? *code : report(code.error());
+}
+
+} // namespace
+
+int runCommandLine(int argc, char** argv) {
+    try {
+        return runChecked(argc, argv);
+    } catch (const std::bad_alloc&) {
+        return report(Error{"out of memory: use fewer nodes, a coarser spacing or smaller pictures"});
+    } catch (const std::filesystem::filesystem_error& problem) {
+        return report(Error{problem.what()});
+    }
+}
+
+} // namespace serosa::app

@@ -1,0 +1,32 @@
+#pragma once
+// The short commands: each writes its text to `out` and returns an exit code, or an Error that the caller
+// prints.
+
+#include "base/result.h"
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+namespace serosa::app {
+
+/// `serosa inspect`: what a mesh is, and the lattice it would give. An open or otherwise unusable surface is
+/// reported and then refused as an Error. \param lengthUnit "mm", ...; empty: lengths are in file units.
+/// \param spacing m (file units without a unit).
+Result<int> inspectModel(const std::filesystem::path& file, const std::string& lengthUnit, std::size_t nodes,
+                         std::optional<double> spacing, std::ostream& out);
+
+/// `serosa scene check`: everything that a run would check before it needs a GL context, but for memory.
+Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out);
+/// `serosa scene explain`: every value with where it comes from, and what follows from them.
+Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& out);
+/// `serosa scene keys`: the reference of all keys.
+Result<int> printSceneKeys(std::ostream& out);
+
+/// `serosa phantom`: writes a generated organ, in millimetres. An existing file is refused without `force`.
+/// \param faces 0: the phantom's default.
+Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
+                         bool force, std::ostream& out);
+
+} // namespace serosa::app

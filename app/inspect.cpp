@@ -1,0 +1,102 @@
+// `serosa inspect` and `serosa phantom`: the commands about a mesh alone.
+
+#include "app/commands.h"
+#include "app/organ_setup.h"
+#include "models/phantom.h"
+#include "sim/mesh_check.h"
+#include "sim/mesh_reader.h"
+#include "sim/mesh_writer.h"
+
+#include <ostream>
+
+namespace serosa::app {
+
+namespace {
+
+std::string sizeText(const glm::dvec3& size) {
+    return shortNumber(size.x) + " x " + shortNumber(size.y) + " x " + shortNumber(size.z);
+}
+
+void printReport(const sim::MeshReport& report, const std::string& unit, std::ostream& out) {
+    const auto line = [&out](const char* name, const std::string& text) { out << name << text << "\n"; };
+    const auto count = [&](const char* name, std::size_t n) {
+        if (n > 0)
+            line(name, grouped(n));
+    };
+    line("vertices            ", grouped(report.vertices));
+    line("faces               ", grouped(report.faces));
+    line("size                ", sizeText(report.highest - report.lowest) + " " + unit);
+    line("from                ", "(" + shortNumber(report.lowest.x) + ", " + shortNumber(report.lowest.y) +
+                                     ", " + shortNumber(report.lowest.z) + ")");
+    line("to                  ", "(" + shortNumber(report.highest.x) + ", " + shortNumber(report.highest.y) +
+                                     ", " + shortNumber(report.highest.z) + ")");
+    line("area                ", shortNumber(report.area) + " " + unit + "^2");
+    line("volume              ", shortNumber(report.volume) + " " + unit + "^3");
+    line("shells              ", grouped(report.shells) + " (" + grouped(report.solids) + " solid, " +
+                                     grouped(report.cavities) + " cavities)");
+    if (!report.genus.empty()) {
+        std::string text;
+        for (const int genus : report.genus)
+            text += (text.empty() ? "" : ", ") + std::to_string(genus);
+        line("genus               ", text);
+    }
+    line("self-intersections  ", grouped(report.selfIntersections) + " pairs of faces");
+    count("open edges          ", report.openEdges);
+    count("non-manifold edges  ", report.nonManifoldEdges);
+    count("non-manifold points ", report.nonManifoldVertices);
+    count("edges wound wrongly ", report.inconsistentEdges);
+    count("degenerate faces    ", report.degenerateFaces);
+    count("duplicate faces     ", report.duplicateFaces);
+    count("unused vertices     ", report.unusedVertices);
+}
+
+} // namespace
+
+Result<int> inspectModel(const std::filesystem::path& file, const std::string& lengthUnit, std::size_t nodes,
+                         std::optional<double> spacing, std::ostream& out) {
+    sim::Organ organ;
+    organ.lengthUnit = 1;
+    if (!lengthUnit.empty()) {
+        SEROSA_ASSIGN(organ.lengthUnit, sim::parseLengthUnit(lengthUnit));
+    }
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, sim::readMesh(file));
+    printReport(sim::inspectMesh(mesh, true), lengthUnit.empty() ? "file units" : lengthUnit, out);
+    out << std::flush;
+    SEROSA_TRY(sim::checkClosedSolid(mesh, file.string()));
+
+    for (glm::dvec3& position : mesh.positions)
+        position *= organ.lengthUnit;
+    organ.nodes = nodes;
+    organ.spacing = spacing.value_or(0);
+    SEROSA_ASSIGN(const sim::Lattice lattice, organLattice(organ, mesh));
+    const std::string unit = lengthUnit.empty() ? "file units" : "mm";
+    const double shown = lengthUnit.empty() ? lattice.spacing : 1e3 * lattice.spacing;
+    out << "lattice             " << grouped(lattice.nodeCount()) << " nodes, "
+        << grouped(lattice.cells.size()) << " cells, spacing " << shortNumber(shown) << " " << unit
+        << ", grid " << lattice.nodeDims.x << " x " << lattice.nodeDims.y << " x " << lattice.nodeDims.z
+        << "\n";
+    if (lengthUnit.empty())
+        out << "a mesh file has no unit: say --length-unit mm (or cm, m, um, in) to see the lattice in "
+               "metres\n";
+    return int(exitOk);
+}
+
+Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
+                         bool force, std::ostream& out) {
+    std::error_code code;
+    if (std::filesystem::is_directory(file, code))
+        return Error{file.string() + " is a folder: name a file, such as " + name + ".ply"};
+    if (!force && std::filesystem::exists(file, code))
+        return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
+    if (faces == 0)
+        for (const models::PhantomInfo& info : models::phantoms())
+            if (info.name == name)
+                faces = info.defaultFaces;
+    SEROSA_ASSIGN(const sim::TriangleMesh mesh, models::makePhantom(name, faces));
+    SEROSA_TRY(sim::writeMesh(mesh, file));
+    out << file.string() << ": " << grouped(mesh.positions.size()) << " vertices, "
+        << grouped(mesh.faces.size()) << " faces, " << sizeText(mesh.highest() - mesh.lowest()) << " mm\n";
+    return int(exitOk);
+}
+
+} // namespace serosa::app

@@ -1,0 +1,100 @@
+// `serosa scene check|explain|keys`.
+
+#include "app/commands.h"
+#include "app/organ_setup.h"
+#include "app/pose.h"
+#include "sim/quantity.h"
+#include "sim/scene_keys.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+
+namespace serosa::app {
+
+namespace {
+
+/// What a run computes from a scene before its first step.
+struct Derived {
+    OrganSurface surface;
+    sim::Lattice lattice;
+    std::size_t fixed = 0;
+    sim::StableStep step;
+};
+
+Result<Derived> derive(const sim::Scene& scene) {
+    const sim::Organ& organ = scene.organs.front();
+    Derived derived;
+    SEROSA_ASSIGN(derived.surface, loadSurface(organ, scene.file));
+    SEROSA_ASSIGN(derived.lattice, organLattice(organ, derived.surface.metres));
+    SEROSA_ASSIGN(const std::vector<bool> fixed,
+                  fixedNodes(organ, derived.lattice, derived.surface.metres, scene.file));
+    derived.fixed = std::size_t(std::count(fixed.begin(), fixed.end(), true));
+    if (organ.pose) {
+        SEROSA_TRY(checkBend(derived.lattice, organ.pose->bendRadius));
+    } else {
+        SEROSA_ASSIGN(derived.step, organStep(organ, derived.lattice, 1 / scene.frameRate));
+    }
+    return derived;
+}
+
+void printDerived(const sim::Scene& scene, const Derived& derived, std::ostream& out) {
+    const sim::Organ& organ = scene.organs.front();
+    const sim::Lattice& lattice = derived.lattice;
+    const glm::dvec3 size = derived.surface.metres.highest() - derived.surface.metres.lowest();
+    const auto line = [&out](const char* name, const std::string& text) {
+        out << std::left << std::setw(34) << name << text << "\n";
+    };
+    using sim::Dimension;
+    line("frames", std::to_string(scene.frames()));
+    line("surface", grouped(derived.surface.file.positions.size()) + " vertices, " +
+                        grouped(derived.surface.file.faces.size()) + " faces");
+    line("size", shortNumber(size.x) + " x " + shortNumber(size.y) + " x " + shortNumber(size.z) + " m");
+    line("lattice nodes", grouped(lattice.nodeCount()) + ", " + grouped(derived.fixed) + " of them fixed");
+    line("lattice cells", grouped(lattice.cells.size()));
+    line("lattice spacing", shortNumber(lattice.spacing) + " m");
+    if (organ.pose)
+        return;
+    line("spring constant k = 0.4 E h", shortNumber(organ.tissue.springConstant(lattice.spacing)) + " N/m");
+    line("mass of a full node", shortNumber(organ.tissue.nodeMass(lattice.spacing)) + " kg");
+    line("stable step",
+         shortNumber(derived.step.bound) + " s, used with a margin of " + shortNumber(derived.step.margin));
+    line("time step", shortNumber(derived.step.timeStep) + " s, " +
+                          std::to_string(derived.step.stepsPerFrame) + " steps a frame");
+}
+
+} // namespace
+
+Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out) {
+    SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file));
+    SEROSA_ASSIGN(const Derived derived, derive(scene));
+    out << file.string() << ": ok: " << scene.frames() << " frames, "
+        << grouped(derived.surface.file.faces.size()) << " faces, " << grouped(derived.lattice.nodeCount())
+        << " nodes, " << scene.tools.size() << " tools";
+    if (derived.step.stepsPerFrame > 0)
+        out << ", " << derived.step.stepsPerFrame << " steps a frame";
+    out << "\n";
+    return int(exitOk);
+}
+
+Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& out) {
+    std::vector<sim::SceneValue> values;
+    SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file, &values));
+    SEROSA_ASSIGN(const Derived derived, derive(scene));
+    for (const sim::SceneValue& value : values) {
+        const std::string source = value.line > 0 ? "line " + std::to_string(value.line) : "default";
+        const bool sameText = value.written == value.value;
+        out << std::left << std::setw(34) << value.path << " " << std::setw(9) << source << " " << value.value
+            << (value.line > 0 && !sameText ? "  (" + value.written + ")" : "") << "\n";
+    }
+    out << "\n";
+    printDerived(scene, derived, out);
+    return int(exitOk);
+}
+
+Result<int> printSceneKeys(std::ostream& out) {
+    out << sim::sceneReference();
+    return int(exitOk);
+}
+
+} // namespace serosa::app
