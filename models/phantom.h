@@ -1,12 +1,12 @@
 #pragma once
-// Digital phantoms generated from signed distance functions (negative inside): deterministic, closed, manifold, no
-// self-contact. `serosa phantom NAME --faces N -o FILE`.
-
-#include <string>
-#include <vector>
+// Digital phantoms generated from signed distance functions (negative inside): deterministic, closed,
+// manifold, no self-contact. `serosa phantom NAME --faces N -o FILE`.
 
 #include "base/result.h"
 #include "sim/triangle_mesh.h"
+
+#include <string>
+#include <vector>
 
 namespace serosa::models {
 
@@ -17,8 +17,9 @@ struct PhantomInfo {
 };
 const std::vector<PhantomInfo>& phantoms();
 
-/// Makes a phantom with at least `faces` faces (at most 5% more). Positions in millimetres, y up, about the origin,
-/// with vertex colours. Errors: unknown name (with a suggestion), a face count that the shape cannot have.
+/// Makes a phantom with at least `faces` faces (at most 5% more). Positions in millimetres, y up, about the
+/// origin, with vertex colours. Errors: unknown name (with a suggestion), a face count that the shape cannot
+/// have.
 Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces);
 
 } // namespace serosa::models
