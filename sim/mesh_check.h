@@ -1,12 +1,13 @@
 #pragma once
-// Is a triangle soup a closed surface that has an inside? What `serosa inspect` prints and `serosa run` insists on.
+// Is a triangle soup a closed surface that has an inside? What `serosa inspect` prints and `serosa run`
+// insists on.
+
+#include "base/result.h"
+#include "sim/triangle_mesh.h"
 
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include "base/result.h"
-#include "sim/triangle_mesh.h"
 
 namespace serosa::sim {
 
@@ -20,16 +21,17 @@ struct MeshReport {
     std::vector<int> genus;      // one a shell; empty if open
     double volume = 0, area = 0; // file units
     glm::dvec3 lowest{0}, highest{0};
-    std::uint64_t selfIntersections = 0; // pairs of crossing faces; counted only if asked
+    std::uint64_t selfIntersections = 0; // pairs of crossing or overlapping faces; counted only if asked
 };
 
 /// Counts everything of MeshReport (never fails). Self-intersections cost a tree of faces.
 MeshReport inspectMesh(const TriangleMesh& mesh, bool countSelfIntersections);
 
-/// Refuses what has no inside, naming the first offending vertex or face: open edges, non-manifold edges, inconsistent
-/// or inverted winding, zero-area faces, several solids, absurd size (an extent below 1e-9 or above 1e9 file units,
-/// or zero volume). Nested cavities and a few self-intersections pass.
-/// \param name what to call the mesh in the message: its file name.
+/// Refuses what has no inside, naming the first offending vertex or face: open edges, non-manifold edges,
+/// inconsistent or inverted winding, doubled faces, pinched vertices, zero-area faces, several solids, absurd
+/// size (an extent below 1e-9 or above 1e9 file units, further than that from the origin, not finite, or zero
+/// volume). Nested cavities and a few self-intersections pass. \param name what to call the mesh in the
+/// message: its file name.
 Status checkClosedSolid(const TriangleMesh& mesh, const std::string& name);
 
 } // namespace serosa::sim

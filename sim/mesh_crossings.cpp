@@ -112,6 +112,41 @@ bool trianglesMeet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return anyEdgeMeets(a, b, c, sidesOfAbc, d, e, f) || anyEdgeMeets(d, e, f, sidesOfDef, a, b, c);
 }
 
+namespace {
+
+/// Triangles that share vertices, turned so that the shared ones come first: t[0] == u[0], and t[1] == u[1]
+/// if there are two.
+bool neighboursMeet(const std::vector<glm::dvec3>& positions, const glm::uvec3& t, const glm::uvec3& u,
+                    int shared) {
+    const glm::dvec3 &a = positions[t[0]], &b = positions[t[1]], &c = positions[t[2]];
+    const glm::dvec3 &e = positions[u[1]], &f = positions[u[2]];
+    if (flatAxis(a, b, c) < 0 || flatAxis(a, e, f) < 0)
+        return false;
+    if (shared == 1) // beyond the common corner, the side opposite to it passes through the other triangle
+        return segmentMeetsTriangle(b, c, side(a, e, f, b), side(a, e, f, c), a, e, f) ||
+               segmentMeetsTriangle(e, f, side(a, b, c, e), side(a, b, c, f), a, b, c);
+    if (side(a, b, c, f) != 0)
+        return false;
+    const int axis = flatAxis(a, b, c);
+    return turn(a, b, c, axis) == turn(a, b, f, axis);
+}
+
+/// Brings the corners of t that are also in u to the front of both; returns how many.
+int alignShared(glm::uvec3& t, glm::uvec3& u) {
+    int shared = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = shared; j < 3; ++j)
+            if (i >= shared && t[i] == u[j]) {
+                std::swap(t[shared], t[i]);
+                std::swap(u[shared], u[j]);
+                ++shared;
+                break;
+            }
+    return shared;
+}
+
+} // namespace
+
 std::uint64_t countCrossings(const TriangleMesh& mesh) {
     const TriangleTree tree(mesh.positions, mesh.faces);
     std::uint64_t count = 0;
@@ -121,11 +156,13 @@ std::uint64_t countCrossings(const TriangleMesh& mesh) {
         tree.overlapping(glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), [&](std::uint32_t j) {
             if (j <= i)
                 return;
-            const glm::uvec3 u = mesh.faces[j];
-            for (int corner = 0; corner < 3; ++corner)
-                if (u[corner] == t.x || u[corner] == t.y || u[corner] == t.z)
-                    return;
-            count += trianglesMeet(a, b, c, mesh.positions[u.x], mesh.positions[u.y], mesh.positions[u.z]);
+            glm::uvec3 first = t, second = mesh.faces[j];
+            const int shared = alignShared(first, second);
+            if (shared == 0)
+                count += trianglesMeet(a, b, c, mesh.positions[second.x], mesh.positions[second.y],
+                                       mesh.positions[second.z]);
+            else if (shared < 3)
+                count += neighboursMeet(mesh.positions, first, second, shared);
         });
     }
     return count;

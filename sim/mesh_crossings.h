@@ -1,5 +1,6 @@
 #pragma once
-// Self-intersections: pairs of triangles that share no vertex and have a point in common.
+// Self-intersections: pairs of triangles that have a point in common beside the vertices and edges that they
+// share.
 
 #include "sim/triangle_mesh.h"
 
@@ -13,7 +14,9 @@ namespace serosa::sim {
 bool trianglesMeet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
                    const glm::dvec3& e, const glm::dvec3& f);
 
-/// The number of such pairs among triangles that share no vertex index.
+/// The number of pairs of triangles that meet: at all where they share no vertex index, beyond the shared
+/// vertex where they share one, folded onto each other where they share an edge. Pairs of three shared
+/// vertices do not count.
 std::uint64_t countCrossings(const TriangleMesh& mesh);
 
 } // namespace serosa::sim
