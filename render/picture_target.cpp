@@ -46,6 +46,10 @@ void PictureTarget::begin() const {
     glDisable(GL_BLEND);
 }
 
+void PictureTarget::bind() const {
+    drawn_.bind(width_, height_);
+}
+
 void PictureTarget::end() const {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

@@ -18,6 +18,8 @@ public:
     /// Binds the target, clears depth, and sets what drawing passes rely on: depth test, back faces culled,
     /// sRGB encoding.
     void begin() const;
+    /// Only binds it: passes that discard all fragments still need a complete framebuffer.
+    void bind() const;
     /// Resolves the samples (in linear light) and leaves depth test, culling, blending and sRGB encoding off.
     void end() const;
     /// The last resolved picture, top row first. Waits for the GPU.

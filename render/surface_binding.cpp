@@ -10,7 +10,6 @@
 #include "shaders/shared_constants.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
-#include "sim/triangle_tree.h"
 
 #include <cmath>
 
@@ -100,11 +99,8 @@ SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh&
     for (std::size_t v = 0; v < positions.size(); ++v) {
         VertexBinding& bound = binding.vertices[v];
         bound.nodes = lattice.boundary[choice.triangles[v]];
-        const sim::TrianglePoint on = sim::closestPointOnTriangle(
-            positions[v], lattice.restPosition(bound.nodes.x), lattice.restPosition(bound.nodes.y),
-            lattice.restPosition(bound.nodes.z));
-        bound.weights.x = float(std::round(on.weights.x * kWeightSteps) / kWeightSteps);
-        bound.weights.y = float(std::round(on.weights.y * kWeightSteps) / kWeightSteps);
+        bound.weights.x = float(std::round(choice.weights[v].x * kWeightSteps) / kWeightSteps);
+        bound.weights.y = float(std::round(choice.weights[v].y * kWeightSteps) / kWeightSteps);
         bound.weights.z = float(exactWeights(bound.weights).z);
     }
     binding.triangles = std::move(choice.triangles);

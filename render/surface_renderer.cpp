@@ -89,6 +89,7 @@ Image SurfaceRenderer::readImage() const {
 std::vector<glm::dvec3> SurfaceRenderer::readDeformedPositions(const sim::StateTextures& state,
                                                                sim::Mapping mapping) {
     std::vector<glm::dvec3> metres;
+    impl_->target.bind();
     for (const glm::vec3& q : impl_->surface.capture(state, stageOf(mapping)).positions)
         metres.push_back(impl_->placement.toWorld(q));
     return metres;
@@ -96,11 +97,13 @@ std::vector<glm::dvec3> SurfaceRenderer::readDeformedPositions(const sim::StateT
 
 std::vector<glm::dvec3> SurfaceRenderer::readDeformedNormals(const sim::StateTextures& state,
                                                              sim::Mapping mapping) {
+    impl_->target.bind();
     const std::vector<glm::vec3> normals = impl_->surface.capture(state, stageOf(mapping)).normals;
     return {normals.begin(), normals.end()};
 }
 
 void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage) {
+    impl_->target.bind();
     impl_->surface.drawDiscarded(state, stage == VertexStage::undeformed ? SurfaceStage::undeformed
                                         : stage == VertexStage::constant ? SurfaceStage::constant
                                                                          : SurfaceStage::corrected);

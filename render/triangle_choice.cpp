@@ -1,7 +1,10 @@
-// MS05 3.3.1: "for each vertex we associate a triangle of three nodal positions". Departure: not merely the
-// closest one. Where a wall is thinner than about two spacings the closest boundary triangle may lie on the
-// wall's other side, and the vertex would follow the wrong surface; so triangles that face against the
-// vertex' normal are passed over while any other lies within 1.5 spacings.
+// MS05 3.3.1: "the reference point is chosen as a projection of the vertex onto the triangle base". The
+// boundary is a staircase around the surface, and the closest of its triangles changes abruptly from vertex
+// to vertex (on a ball one edge in twenty is torn by it) and lies on the wrong side of a thin wall.
+// Departure: the projection goes along the vertex' normal, smoothed over about one spacing, to where it
+// leaves the lattice. Seen that way the staircase is a graph over the surface, so neighbours land on
+// neighbours. Where that finds nothing within two spacings (deep folds), the closest triangle that faces the
+// same way serves, and after it the closest of all.
 #include "render/triangle_choice.h"
 
 #include "render/parallel.h"
@@ -9,11 +12,15 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace serosa::render {
 
 namespace {
 
+constexpr double kRayReach = 2.0;    // spacings: a half-space needs at most sqrt(3)
+constexpr double kRayStart = 0.01;   // spacings behind the vertex, which may lie on the boundary itself
+constexpr double kSmoothing = 0.7;   // spacings over which normals are averaged
 constexpr double kFacing = 0.1;      // least n_vertex . n_triangle
 constexpr double kReach = 1.5;       // spacings within which a facing triangle is preferred
 constexpr double kRepairReach = 1.5; // spacings by which a repair may move the reference point away
@@ -64,6 +71,38 @@ public:
     std::size_t tornEdges() const {
         return std::size_t(std::count_if(edges_.begin(), edges_.end(),
                                          [&](const auto& e) { return torn(e.first, e.second); }));
+    }
+
+    /// One sweep over single vertices with torn edges: the triangle around a neighbour's nodes that tears
+    /// fewest edges, the closest of several. Returns whether anything changed.
+    bool sweep() {
+        bool changed = false;
+        for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+            std::size_t fewest = tornAround({v});
+            if (fewest == 0)
+                continue;
+            const double reach = distanceTo(v, triangles_[v]) + kRepairReach;
+            std::uint32_t best = triangles_[v];
+            double bestDistance = 0;
+            for (const std::uint32_t w : around_[v])
+                for (int i = 0; i < 3; ++i)
+                    for (const std::uint32_t t : ofNode_[lattice_.boundary[triangles_[w]][i]]) {
+                        const double d = distanceTo(v, t);
+                        if (d > reach)
+                            continue;
+                        const std::uint32_t old = std::exchange(triangles_[v], t);
+                        const std::size_t torn = tornAround({v});
+                        triangles_[v] = old;
+                        if (torn < fewest || (torn == fewest && best != old && d < bestDistance)) {
+                            fewest = torn;
+                            best = t;
+                            bestDistance = d;
+                        }
+                    }
+            changed = changed || best != triangles_[v];
+            triangles_[v] = best;
+        }
+        return changed;
     }
 
     /// One pass over all patches, small ones first. Returns whether anything changed.
@@ -208,17 +247,47 @@ private:
     std::vector<State> state_ = std::vector<State>(positions_.size(), State::outside);
 };
 
+/// Unit normals averaged over neighbours, again and again until detail below the lattice's is gone.
+std::vector<glm::dvec3> smoothed(const std::vector<glm::uvec3>& faces,
+                                 const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3> normals) {
+    double length = 0;
+    for (const glm::uvec3& f : faces)
+        length += glm::distance(positions[f.x], positions[f.y]) / double(faces.size());
+    const double rounds =
+        length > 0 ? (kSmoothing / length) * (kSmoothing / length) : 0; // a random walk's reach squared
+    for (int round = 0; round < int(std::clamp(rounds, 1.0, 50.0)); ++round) {
+        std::vector<glm::dvec3> sums = normals;
+        for (const glm::uvec3& f : faces)
+            for (int i = 0; i < 3; ++i)
+                sums[f[i]] += 0.5 * (normals[f[(i + 1) % 3]] + normals[f[(i + 2) % 3]]);
+        for (std::size_t v = 0; v < sums.size(); ++v)
+            if (glm::length(sums[v]) > 1e-3)
+                normals[v] = glm::normalize(sums[v]);
+    }
+    return normals;
+}
+
 } // namespace
 
 void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
                      const std::vector<glm::dvec3>& positions, TriangleChoice& choice) {
+    const std::vector<std::uint32_t> before = choice.triangles;
     Repair repair(lattice, faces, positions, choice.triangles);
     choice.tornEdgesLeft = choice.tornEdgesFound = repair.tornEdges();
     for (int pass = 0; pass < kPasses && choice.tornEdgesLeft > 0; ++pass) {
-        if (!repair.pass())
+        const bool single = repair.sweep();
+        if (!repair.pass() && !single)
             break;
         choice.tornEdgesLeft = repair.tornEdges();
     }
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        if (choice.triangles[v] != before[v]) {
+            const glm::uvec3& t = lattice.boundary[choice.triangles[v]];
+            choice.weights[v] =
+                sim::closestPointOnTriangle(positions[v], lattice.restPosition(t.x),
+                                            lattice.restPosition(t.y), lattice.restPosition(t.z))
+                    .weights;
+        }
 }
 
 TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
@@ -231,16 +300,26 @@ TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<gl
     std::vector<glm::dvec3> facing;
     for (const glm::uvec3& t : lattice.boundary)
         facing.push_back(glm::normalize(glm::cross(nodes[t.y] - nodes[t.x], nodes[t.z] - nodes[t.x])));
+    const std::vector<glm::dvec3> outward = smoothed(faces, positions, normals);
 
     TriangleChoice choice;
     choice.triangles.resize(positions.size());
+    choice.weights.resize(positions.size());
     parallelFor(positions.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
+            const glm::dvec3 start = positions[v] - kRayStart * outward[v];
+            if (const auto hit = tree.firstHit(start, outward[v], kRayReach + kRayStart);
+                hit && !hit->front) {
+                choice.triangles[v] = hit->triangle;
+                choice.weights[v] = hit->weights;
+                continue;
+            }
             const auto agrees = [&](std::uint32_t t) { return glm::dot(normals[v], facing[t]) >= kFacing; };
             auto closest = tree.closest(positions[v], kReach, agrees);
             if (!closest)
                 closest = tree.closest(positions[v]);
             choice.triangles[v] = closest.triangle;
+            choice.weights[v] = closest.weights;
         }
     });
     repairTornEdges(lattice, faces, positions, choice);

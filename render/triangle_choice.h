@@ -15,6 +15,7 @@ namespace serosa::render {
 
 struct TriangleChoice {
     std::vector<std::uint32_t> triangles; // into lattice.boundary, one a vertex
+    std::vector<glm::dvec3> weights;      // of the reference point, eq. 4
     std::size_t tornEdgesFound = 0, tornEdgesLeft = 0;
 };
 

@@ -1,9 +1,8 @@
 #version 450 core
 // The detailed surface: undeformed (SURFACE_STATIC), through the triangle basis or the curvature-corrected one (MS05 3.3), or
 // the lattice's own boundary with one vertex a node (SURFACE_NODES, MS05 3.2). Lattice units; axes are the world's.
-#ifdef SURFACE_STATIC
 #include "packed_normal.glsl"
-#else
+#ifndef SURFACE_STATIC
 #include "mapping.glsl"
 #endif
 
