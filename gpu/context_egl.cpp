@@ -13,50 +13,34 @@ namespace {
 constexpr const char* kInstallEgl =
     "install the Debian packages libegl1 and libegl-mesa0, or the GPU maker's driver";
 
-/// An initialised display. EGL gives the same display for the same platform and device, and terminating it
-/// ends every context on it, so the last owner terminates.
-class Display {
-public:
-    static std::shared_ptr<Display> open(EGLenum platform, void* native, std::string& problem) {
-        const EglLibrary& egl = eglLibrary();
-        EGLDisplay handle = egl.getPlatformDisplay(platform, native, nullptr);
-        if (handle == EGL_NO_DISPLAY) {
-            problem = "no EGL display, " + egl.lastError();
-            return nullptr;
-        }
-        static std::map<EGLDisplay, std::weak_ptr<Display>> open;
-        if (auto shared = open[handle].lock())
-            return shared;
-        EGLint major = 0, minor = 0;
-        if (!egl.initialize(handle, &major, &minor)) {
-            problem = "EGL did not initialise, " + egl.lastError();
-            return nullptr;
-        }
-        const auto display = std::shared_ptr<Display>(new Display(handle));
-        open[handle] = display;
-        return display;
+/// An initialised display. It is never terminated: EGL gives the same one for the same platform and device,
+/// terminating it would end every other context on it, and Mesa would unload its driver, which LLVM inside
+/// does not survive.
+EGLDisplay openDisplay(EGLenum platform, void* native, std::string& problem) {
+    const EglLibrary& egl = eglLibrary();
+    EGLDisplay display = egl.getPlatformDisplay(platform, native, nullptr);
+    EGLint major = 0, minor = 0;
+    if (display == EGL_NO_DISPLAY) {
+        problem = "no EGL display, " + egl.lastError();
+    } else if (!egl.initialize(display, &major, &minor)) {
+        problem = "EGL did not initialise, " + egl.lastError();
+        display = EGL_NO_DISPLAY;
     }
-    ~Display() { eglLibrary().terminate(handle_); }
-    Display(const Display&) = delete;
-    Display& operator=(const Display&) = delete;
-    EGLDisplay handle() const { return handle_; }
-    bool has(const char* extension) const {
-        const char* list = eglLibrary().queryString(handle_, EGL_EXTENSIONS);
-        return list && hasExtension(list, extension);
-    }
+    return display;
+}
 
-private:
-    explicit Display(EGLDisplay handle) : handle_(handle) {}
-    EGLDisplay handle_;
-};
+bool displayHas(EGLDisplay display, const char* extension) {
+    const char* list = eglLibrary().queryString(display, EGL_EXTENSIONS);
+    return list && hasExtension(list, extension);
+}
 
 class EglContext final : public BackendContext {
 public:
-    EglContext(ContextKind kind, std::shared_ptr<Display> display, EGLContext context)
-        : kind_(kind), display_(std::move(display)), context_(context) {}
+    EglContext(ContextKind kind, EGLDisplay display, EGLContext context)
+        : kind_(kind), display_(display), context_(context) {}
     ~EglContext() override {
         releaseThis();
-        eglLibrary().destroyContext(display_->handle(), context_);
+        eglLibrary().destroyContext(display_, context_);
     }
     ContextKind kind() const override { return kind_; }
 
@@ -64,30 +48,30 @@ protected:
     Status bind() override {
         const EglLibrary& egl = eglLibrary();
         egl.bindApi(EGL_OPENGL_API);
-        if (!egl.makeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+        if (!egl.makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
             return Error{"eglMakeCurrent failed, " + egl.lastError(), exitNoGl};
         return {};
     }
     void unbind() override {
-        eglLibrary().makeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglLibrary().makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
     GlProc proc(const char* name) const override { return eglLibrary().getProcAddress(name); }
 
 private:
     ContextKind kind_;
-    std::shared_ptr<Display> display_;
+    EGLDisplay display_;
     EGLContext context_;
 };
 
 /// A config for windowless rendering, or none at all where the display can do without.
-std::optional<EGLConfig> chooseConfig(const Display& display) {
+std::optional<EGLConfig> chooseConfig(EGLDisplay display) {
     const EGLint attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
                                  EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
-    if (eglLibrary().chooseConfig(display.handle(), attributes, &config, 1, &count) && count > 0)
+    if (eglLibrary().chooseConfig(display, attributes, &config, 1, &count) && count > 0)
         return config;
-    if (display.has("EGL_KHR_no_config_context"))
+    if (displayHas(display, "EGL_KHR_no_config_context"))
         return EGL_NO_CONFIG_KHR;
     return std::nullopt;
 }
@@ -96,16 +80,16 @@ Attempt tryDisplay(ContextKind kind, EGLenum platform, void* native) {
     const EglLibrary& egl = eglLibrary();
     Attempt failed{nullptr, "", "install or update the driver of the GPU, or libegl-mesa0"};
     BackendContext::releaseCurrent();
-    const std::shared_ptr<Display> display = Display::open(platform, native, failed.problem);
-    if (!display) {
+    const EGLDisplay display = openDisplay(platform, native, failed.problem);
+    if (display == EGL_NO_DISPLAY) {
         failed.advice = kInstallEgl;
         return failed;
     }
-    if (!display->has("EGL_KHR_surfaceless_context")) {
+    if (!displayHas(display, "EGL_KHR_surfaceless_context")) {
         failed.problem = "the display cannot render without a surface (EGL_KHR_surfaceless_context)";
         return failed;
     }
-    const std::optional<EGLConfig> config = chooseConfig(*display);
+    const std::optional<EGLConfig> config = chooseConfig(display);
     if (!config) {
         failed.problem = "the display has no config for OpenGL";
         return failed;
@@ -120,7 +104,7 @@ Attempt tryDisplay(ContextKind kind, EGLenum platform, void* native) {
                                  EGL_CONTEXT_OPENGL_DEBUG,
                                  EGL_TRUE,
                                  EGL_NONE};
-    const EGLContext raw = egl.createContext(display->handle(), *config, EGL_NO_CONTEXT, attributes);
+    const EGLContext raw = egl.createContext(display, *config, EGL_NO_CONTEXT, attributes);
     if (raw == EGL_NO_CONTEXT) {
         failed.problem = "no OpenGL 4.5 core context, " + egl.lastError();
         return failed;

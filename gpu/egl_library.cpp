@@ -31,7 +31,6 @@ EglLibrary openEgl() {
     find(egl.getError, "eglGetError");
     find(egl.queryString, "eglQueryString");
     find(egl.initialize, "eglInitialize");
-    find(egl.terminate, "eglTerminate");
     find(egl.bindApi, "eglBindAPI");
     find(egl.chooseConfig, "eglChooseConfig");
     find(egl.createContext, "eglCreateContext");

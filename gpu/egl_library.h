@@ -19,7 +19,6 @@ struct EglLibrary {
     PFNEGLGETERRORPROC getError = nullptr;
     PFNEGLQUERYSTRINGPROC queryString = nullptr;
     PFNEGLINITIALIZEPROC initialize = nullptr;
-    PFNEGLTERMINATEPROC terminate = nullptr;
     PFNEGLBINDAPIPROC bindApi = nullptr;
     PFNEGLCHOOSECONFIGPROC chooseConfig = nullptr;
     PFNEGLCREATECONTEXTPROC createContext = nullptr;

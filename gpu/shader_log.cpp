@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <regex>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -39,32 +39,76 @@ std::string includeChain(const ExpandedShader& shader, const ExpandedShader::Fil
     return chain;
 }
 
+struct Position {
+    std::size_t source;
+    int line;
+    std::size_t messageAt; // where the driver's message begins
+};
+
+/// Reads a number of at most six digits at `at` and steps over it.
+std::optional<int> number(const std::string& text, std::size_t& at) {
+    constexpr std::size_t kMostDigits = 6;
+    std::size_t end = at;
+    while (end < text.size() && end < at + kMostDigits && text[end] >= '0' && text[end] <= '9')
+        ++end;
+    if (end == at)
+        return std::nullopt;
+    const int value = std::stoi(text.substr(at, end - at));
+    at = end;
+    return value;
+}
+
+bool skip(const std::string& text, std::size_t& at, const std::string& expected) {
+    if (text.compare(at, expected.size(), expected) != 0)
+        return false;
+    at += expected.size();
+    return true;
+}
+
+/// "0:12(5)", "0(12)" or "ERROR: 0:12" at the start of a line of the log.
+std::optional<Position> position(const std::string& text) {
+    std::size_t at = 0;
+    if (!skip(text, at, "ERROR: "))
+        skip(text, at, "WARNING: ");
+    const auto source = number(text, at);
+    if (!source)
+        return std::nullopt;
+    const bool colon = skip(text, at, ":");
+    if (!colon && !skip(text, at, "("))
+        return std::nullopt;
+    const auto line = number(text, at);
+    if (!line)
+        return std::nullopt;
+    if (!colon) {
+        if (!skip(text, at, ")"))
+            return std::nullopt;
+    } else if (skip(text, at, "(")) { // Mesa's column
+        number(text, at);
+        if (!skip(text, at, ")"))
+            return std::nullopt;
+    }
+    at = text.find_first_not_of(" :", at);
+    return Position{static_cast<std::size_t>(*source), *line, std::min(at, text.size())};
+}
+
 } // namespace
 
 std::string explainShaderLog(const std::string& log, const ExpandedShader& shader) {
-    static const std::regex form(
-        R"(^((?:ERROR|WARNING): )?(\d{1,4})(?::(\d{1,6})\(\d+\)|\((\d{1,6})\)|:(\d{1,6})(?=:))\s*:?\s*)");
     std::istringstream lines(log);
     std::string line, result;
     std::set<std::pair<std::size_t, int>> shown;
     while (std::getline(lines, line)) {
         line.erase(std::find(line.begin(), line.end(), '\0'), line.end());
-        std::smatch match;
-        if (!std::regex_search(line, match, form)) {
+        const std::optional<Position> found = position(line);
+        if (!found || found->source >= shader.files.size()) {
             if (!line.empty())
                 result += line + "\n";
             continue;
         }
-        const std::size_t source = std::stoul(match[2]);
-        const int number = std::stoi(match[3].matched ? match[3] : match[4].matched ? match[4] : match[5]);
-        if (source >= shader.files.size()) {
-            result += line + "\n";
-            continue;
-        }
-        const ExpandedShader::File& file = shader.files[source];
-        result += file.name + ":" + std::to_string(number) + ": " + match.suffix().str() + "\n";
-        if (shown.size() < kMostExcerpts && shown.emplace(source, number).second)
-            result += includeChain(shader, file) + excerpt(file, number);
+        const ExpandedShader::File& file = shader.files[found->source];
+        result += file.name + ":" + std::to_string(found->line) + ": " + line.substr(found->messageAt) + "\n";
+        if (shown.size() < kMostExcerpts && shown.emplace(found->source, found->line).second)
+            result += includeChain(shader, file) + excerpt(file, found->line);
     }
     return result;
 }
