@@ -106,8 +106,8 @@ std::string inQuotes(std::string_view text) {
 
 Result<double> parseQuantity(std::string_view text, Dimension dimension) {
     std::string_view rest = trimmed(text);
-    if (!rest.empty() && rest.front() == '+')
-        rest.remove_prefix(1);
+    if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-')
+        rest.remove_prefix(1); // from_chars takes no plus
     double number = 0;
     const auto [end, code] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
     if (code == std::errc::invalid_argument)

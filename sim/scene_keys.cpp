@@ -239,11 +239,14 @@ std::string sceneReference() {
                 << "| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
             table = key.table;
         }
-        const std::string fallback = key.required()          ? "**required**"
-                                     : *key.fallback == '\0' ? "-"
-                                                             : "`" + std::string(key.fallback) + "`";
-        out << "| `" << key.name << "` | " << describeValue(key) << " | " << fallback << " | " << key.meaning
-            << " |\n";
+        out << "| `" << key.name << "` | " << describeValue(key) << " | ";
+        if (key.required())
+            out << "**required**";
+        else if (*key.fallback == '\0')
+            out << "-";
+        else
+            out << "`" << key.fallback << "`";
+        out << " | " << key.meaning << " |\n";
     }
     return out.str();
 }
