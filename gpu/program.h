@@ -36,7 +36,8 @@ struct ExpandedShader {
 };
 
 /// Where shader text comes from: the binary, or a folder (hot reload). `#include "name"` at the start of a
-/// line is resolved here, once a stage for each file (also when the first one stands in an inactive #if).
+/// line is resolved here; a file that is included several times counts once, at the first place that is
+/// active.
 class ShaderLibrary {
 public:
     ShaderLibrary() = default;                            // embedded sources

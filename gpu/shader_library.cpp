@@ -43,18 +43,32 @@ public:
         for (int file = from; file >= 0; file = shader.files[static_cast<std::size_t>(file)].includedFrom)
             if (shader.files[static_cast<std::size_t>(file)].name == name)
                 return Error{where + "include cycle: \"" + name + "\" is being included already"};
-        for (const ExpandedShader::File& file : shader.files)
-            if (file.name == name)
-                return {};
-        const auto text = library_.text(name);
-        if (!text.ok())
-            return Error{where + text.error().message};
-        const int index = static_cast<int>(shader.files.size());
-        shader.files.push_back({name, text.value(), from, fromLine});
-        if (index > 0)
-            directive(1, index);
+        std::size_t index = 0;
+        while (index < shader.files.size() && shader.files[index].name != name)
+            ++index;
+        if (index == shader.files.size()) {
+            const auto text = library_.text(name);
+            if (!text.ok())
+                return Error{where + text.error().message};
+            shader.files.push_back({name, text.value(), from, fromLine});
+        }
+        if (from < 0)
+            return addLines(0);
+        // A guard instead of leaving the second copy out: the first one may stand in an inactive #if.
+        const std::string guard = "SRS_INCLUDED_" + std::to_string(index);
+        shader.source += "#ifndef " + guard + "\n#define " + guard + "\n";
+        directive(1, static_cast<int>(index));
+        SEROSA_TRY(addLines(static_cast<int>(index)));
+        shader.source += "#endif\n";
+        return {};
+    }
 
-        std::istringstream lines(text.value());
+    ExpandedShader shader;
+
+private:
+    Status addLines(int index) {
+        const std::string name = shader.files[static_cast<std::size_t>(index)].name;
+        std::istringstream lines(shader.files[static_cast<std::size_t>(index)].text);
         std::string line;
         bool versionSeen = index > 0;
         for (int number = 1; std::getline(lines, line); ++number) {
@@ -82,9 +96,6 @@ public:
         return {};
     }
 
-    ExpandedShader shader;
-
-private:
     /// The next line is line `number` of file `index`.
     void directive(int number, int index) {
         shader.source += "#line " + std::to_string(number) + " " + std::to_string(index) + "\n";

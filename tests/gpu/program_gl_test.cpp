@@ -159,6 +159,16 @@ TEST_F(GlProgram, ErrorsAfterDefinesAndIncludesKeepTheirLine) {
     EXPECT_NE(program.error().message.find("a.frag:4: "), std::string::npos) << program.error().message;
 }
 
+TEST_F(GlProgram, AnIncludeInAnInactiveBranchDoesNotHideTheNext) {
+    folder.write("value.glsl", "float value() { return 3.0; }\n");
+    folder.write("twice.glsl", "#include \"value.glsl\"\n#include \"value.glsl\"\n");
+    auto program =
+        create("#ifdef NEVER\n#include \"value.glsl\"\n#endif\n#include \"twice.glsl\"\nout vec4 o_value;\n"
+               "void main() { o_value = vec4(value()); }\n");
+    ASSERT_TRUE(program.ok()) << program.error().message;
+    EXPECT_EQ(draw(*program), glm::vec4(3.0f));
+}
+
 TEST_F(GlProgram, DefinesReachTheSource) {
     auto program = create("out vec4 o_value;\nvoid main() { o_value = vec4(VALUE); }\n", {{"VALUE", "2.5"}});
     ASSERT_TRUE(program.ok()) << program.error().message;

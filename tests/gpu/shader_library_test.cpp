@@ -43,7 +43,7 @@ TEST(ShaderLibraryText, DefinesFollowVersionAndLinesStayTrue) {
               "// idea\n#version 450 core\n#define SIZE 4\n#define FLAG \n#line 3 0\nvoid main() {}\n");
 }
 
-TEST(ShaderLibraryText, EachFileIsIncludedOnce) {
+TEST(ShaderLibraryText, EachIncludeIsGuardedAndNumberedOnce) {
     const test::ShaderFolder folder;
     folder.write("a.frag",
                  "#version 450 core\n#include \"b.glsl\"\n#include \"c.glsl\"\n#  include \"c.glsl\"\nend\n");
@@ -51,9 +51,10 @@ TEST(ShaderLibraryText, EachFileIsIncludedOnce) {
     folder.write("c.glsl", "c\n");
     const auto shader = ShaderLibrary(folder.path()).expand("a.frag", {});
     ASSERT_TRUE(shader.ok()) << shader.error().message;
+    const std::string c = "#ifndef SRS_INCLUDED_2\n#define SRS_INCLUDED_2\n#line 1 2\nc\n#endif\n";
     EXPECT_EQ(shader->source,
-              "#version 450 core\n#line 2 0\n#line 1 1\n#line 1 2\nc\n#line 2 1\nb\n#line 3 0\n"
-              "#line 4 0\n#line 5 0\nend\n");
+              "#version 450 core\n#line 2 0\n#ifndef SRS_INCLUDED_1\n#define SRS_INCLUDED_1\n#line 1 1\n" +
+                  c + "#line 2 1\nb\n#endif\n#line 3 0\n" + c + "#line 4 0\n" + c + "#line 5 0\nend\n");
     ASSERT_EQ(shader->files.size(), 3u);
     EXPECT_EQ(shader->files[2].name, "c.glsl");
     EXPECT_EQ(shader->files[2].includedFrom, 1);
