@@ -74,7 +74,7 @@ std::vector<WallProbe> heartWallProbes() {
     using Walls = HeartWalls;
     const Place places[] = {
         {"left ventricle", {10, -20, -8}, {1, 0, -0.55}, true, Walls::kLeftVentricle},
-        {"left ventricle", {10, -35, -8}, {0.9, 0, -0.6}, true, Walls::kLeftVentricle},
+        {"left ventricle", {10, -32, -8}, {0.8, 0, -0.75}, true, Walls::kLeftVentricle},
         {"left ventricle", {10, -45, -8}, {0.3, -0.1, -1}, true, Walls::kLeftVentricle},
         {"right ventricle", {-22, -24, 14}, {-0.4, 0, 1}, true, Walls::kRightVentricle},
         {"right ventricle", {-24, -34, 12}, {-0.5, 0, 1}, true, Walls::kRightVentricle},
@@ -87,7 +87,7 @@ std::vector<WallProbe> heartWallProbes() {
         {"aorta", {6, 64, -17}, {0.5, 0.6, 0.5}, false, Walls::kVessel},
         {"aorta", {-10, 48, 2}, {0, 0, 1}, false, Walls::kVessel},
         {"pulmonary trunk", {16, 27, 12}, {0.5, 0.3, 0.8}, false, Walls::kVessel},
-        {"superior vena cava", {-39, 42, -1}, {-1, 0, 0.4}, false, Walls::kVessel},
+        {"superior vena cava", {-40, 44, -1}, {-1, 0, 0.4}, false, Walls::kVessel},
     };
     std::vector<WallProbe> probes;
     for (const Place& place : places) {
@@ -126,21 +126,33 @@ HeartSection heartFourChamberSection() {
 }
 
 double heartMuscleLength() {
-    // Support of the muscle along the axis: shells of constant height, searched from both ends.
+    // The muscle's support along the axis, both ways: climb over its surface from the poles' neighbourhood.
     const Anatomy& a = heart().anatomy;
-    const auto holds = [&](double height) {
-        for (double x = -60; x <= 60; x += 1.5)
-            for (double z = -60; z <= 60; z += 1.5)
-                if (Anatomy::muscle(a.distances(a.toWorld({x, height, z}))) < 0)
-                    return true;
-        return false;
+    const auto reach = [&](double sign, Point from) {
+        // Highest point that holds muscle, by a search over a narrowing grid of columns.
+        double best = 0, width = 40;
+        for (int round = 0; round < 5; ++round, width *= 0.4) {
+            const Point centre = from;
+            for (int i = -6; i <= 6; ++i)
+                for (int k = -6; k <= 6; ++k) {
+                    const Point at(centre.x + i * width / 6, 0, centre.z + k * width / 6);
+                    double height = 100;
+                    while (height > best) {
+                        const double away =
+                            Anatomy::muscle(a.distances(a.toWorld(at + Point(0, sign * height, 0))));
+                        if (away < 1e-3)
+                            break;
+                        height -= std::max(0.8 * away, 1e-3);
+                    }
+                    if (height > best) {
+                        best = height;
+                        from = at;
+                    }
+                }
+        }
+        return best;
     };
-    double low = -100, high = 90;
-    while (!holds(low))
-        low += 0.25;
-    while (!holds(high))
-        high -= 0.25;
-    return high - low;
+    return reach(1, {-10, 0, -10}) + reach(-1, {10, 0, -8});
 }
 
 Result<sim::TriangleMesh> makeHeart(std::size_t faces) {

@@ -52,7 +52,7 @@ HeartAnatomy::HeartAnatomy() {
                                 round, flat));
     pulmonary_.push_back(vessel({{{16, 36, 2}, 9.5}, {{25, 42, -7}, 8}, {{36, 43, -14}, 7.4}}, round, flat));
     // Venae cavae.
-    cavae_.push_back(vessel({{{-36, 12, -4}, 8}, {{-39, 34, -1}, 8}, {{-38, 50, -1}, 8}}, round, flat));
+    cavae_.push_back(vessel({{{-36, 12, -4}, 8}, {{-40, 34, -1}, 8}, {{-40, 50, 0}, 8}}, round, flat));
     cavae_.push_back(vessel({{{-34, -6, -12}, 9}, {{-35, -20, -16}, 9}, {{-35, -27, -17}, 9}}, round, flat));
     // Pulmonary veins: left upper, left lower, right upper, right lower.
     veins_.push_back(vessel({{{18, 15, -34}, 5}, {{31, 19, -37}, 5}, {{38, 21, -39}, 5}}, round, flat));
@@ -65,8 +65,8 @@ HeartAnatomy::HeartAnatomy() {
     leftAuricle_.emplace_back(spline(
         {{{18, 14, -27}, 9}, {{31, 24, -19}, 8}, {{37, 30, -8}, 7}, {{36, 28, 3}, 6}, {{32, 22, 11}, 4}},
         kSpline));
-    rightAuricle_.emplace_back(spline(
-        {{{-34, 12, 2}, 11}, {{-30, 20, 13}, 9.5}, {{-21, 22, 20}, 7.5}, {{-12, 19, 24}, 4.5}}, kSpline));
+    rightAuricle_.emplace_back(
+        spline({{{-34, 11, 2}, 12}, {{-28, 18, 11}, 10.5}, {{-20, 19, 17}, 8}, {{-12, 16, 21}, 5}}, kSpline));
 }
 
 double HeartAnatomy::outerOf(const std::vector<Vessel>& vessels, const Point& p, double k) {
@@ -87,24 +87,24 @@ HeartAnatomy::Distances HeartAnatomy::distances(const Point& p) const {
     const Point l = toLocal(p);
     Distances d;
     // Left ventricle: prolate, closed by the plane of its valves, with the outflow below the aortic valve.
-    const double leftBody = ellipsoid(l - Point(10, -22, -8), {20, 49, 20});
+    const double leftBody = ellipsoid(l - Point(10, -20.5, -8), {20, 45.5, 20});
     const double outflow = capsule(l, {7, -18, -4}, {0, 0, 4}, 10, 10);
     const double lv = common(blend(leftBody, outflow, 5), l.y + 3, 6);
     // Right ventricle: wraps around the septum; its cone rises to the pulmonary valve.
-    const double rightBody = common(ellipsoid(l - Point(-12, -20, 8), {32, 48, 24}), l.y + 2, 8);
-    const double rv = blend(rightBody, conus_[0].distance(p), 8);
-    const double la = blend(blend(ellipsoid(p - Point(3, 10, -31), {24, 13, 15}),
+    const double rightBody = common(ellipsoid(l - Point(-11, -14, 8), {31, 42, 24}), l.y + 2, 8);
+    const double conus = conus_[0].distance(p);
+    const double rv = blend(rightBody, conus, 8);
+    const double la = blend(blend(ellipsoid(p - Point(1, 10, -30), {26, 13, 15}),
                                   capsule(p, {6, 9, -27}, toWorld({13, 0, -11}), 11, 13), 6),
                             leftAuricle_[0].distance(p), 4);
-    const double ra = blend(blend(ellipsoid(p - Point(-34, 3, -5), {18, 23, 18}),
+    const double ra = blend(blend(ellipsoid(p - Point(-34, 3, -5), {16.5, 20, 16.5}),
                                   capsule(p, {-32, 2, -4}, toWorld({-20, 0, 4}), 12, 14), 6),
                             rightAuricle_[0].distance(p), 5);
     const double aortaLumen = lumenOf(aorta_, p, 2), pulmonaryLumen = lumenOf(pulmonary_, p, 2);
 
     d.outer[leftVentricle] = common(lv - Walls::kLeftVentricle, l.y - 4, 6);
     d.outer[rightVentricle] = common(rightBody - Walls::kRightVentricle, l.y - 3, 5);
-    d.outer[rightVentricle] =
-        blend(d.outer[rightVentricle], conus_[0].distance(p) - Walls::kRightVentricle, 8);
+    d.outer[rightVentricle] = blend(d.outer[rightVentricle], conus - Walls::kRightVentricle, 8);
     d.outer[leftAtrium] = la - Walls::kAtrium;
     d.outer[rightAtrium] = ra - Walls::kAtrium;
     d.outer[aorta] = outerOf(aorta_, p, 3);
@@ -112,11 +112,19 @@ HeartAnatomy::Distances HeartAnatomy::distances(const Point& p) const {
     d.outer[cavae] = std::min(cavae_[0].outer.distance(p), cavae_[1].outer.distance(p));
     d.outer[veins] = outerOf(veins_, p, 3);
 
+    // Fat about the roots of the great vessels closes what would be tunnels narrower than a simulation's
+    // cell.
+    d.fat = std::min(capsule(p, {-10, 14, 10}, {12, 18, 8}, 9, 9),
+                     capsule(p, {-8, 12, -8}, {12, 17, -12}, 10, 10));
+    d.fat = std::min(d.fat, capsule(p, {3, 5, 17}, {8, 10, 14}, 8, 8));
+    d.fat = std::min(d.fat, capsule(p, {20, 25, 6}, {29, 24, -2}, 8, 7));
+    d.fat = std::min(d.fat, capsule(p, toWorld({-8, 5, -22}), toWorld({-4, 7, 2}), 8, 9));
+
     constexpr double k = 2; // rounding of the cavities' corners
     d.lumen[leftVentricle] = lv;
     d.lumen[aorta] = carve(aortaLumen, lv - Walls::kValve, k);
     d.lumen[rightVentricle] = carve(carve(rv, lv - Walls::kLeftVentricle, k), d.lumen[aorta] - 3.5, k);
-    d.lumen[pulmonary] = carve(pulmonaryLumen, d.lumen[rightVentricle] - Walls::kValve, k);
+    d.lumen[pulmonary] = carve(carve(pulmonaryLumen, rv - Walls::kValve, k), d.lumen[aorta] - 3.5, k);
     const auto clear = [&](double cavity) { // room for the walls of what was placed before
         cavity = carve(cavity, lv - Walls::kValve, k);
         cavity = carve(cavity, rv - Walls::kValve, k);
@@ -134,15 +142,16 @@ HeartAnatomy::Distances HeartAnatomy::distances(const Point& p) const {
 }
 
 double HeartAnatomy::ventricles(const Distances& d) {
-    return blend(d.outer[leftVentricle], d.outer[rightVentricle], 7);
+    return blend(d.outer[leftVentricle], d.outer[rightVentricle], 10);
 }
 
 double HeartAnatomy::muscle(const Distances& d) {
-    return blend(ventricles(d), blend(d.outer[leftAtrium], d.outer[rightAtrium], 4), 7);
+    return blend(ventricles(d), blend(d.outer[leftAtrium], d.outer[rightAtrium], 8), 9);
 }
 
 double HeartAnatomy::outside(const Distances& d) {
-    double all = blend(muscle(d), blend(d.outer[aorta], d.outer[pulmonary], 3), 4);
+    double all = blend(muscle(d), blend(d.outer[aorta], d.outer[pulmonary], 6), 4);
+    all = blend(all, d.fat, 5);
     all = blend(all, d.outer[cavae], 4);
     return blend(all, d.outer[veins], 4);
 }

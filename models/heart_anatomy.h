@@ -36,6 +36,7 @@ public:
     struct Distances {
         double outer[kParts];
         double lumen[kParts];
+        double fat;
     };
     Distances distances(const Point& p) const;
 

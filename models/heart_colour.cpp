@@ -22,7 +22,7 @@ glm::u8vec3 heartColour(const Point& p, const HeartAnatomy::Distances& d, double
     const double broad = 0.5 + 0.5 * noise(p / 17.0), fine = 0.5 + 0.5 * noise(p / 6.0 + 31.0);
     const double outside = std::abs(Anatomy::outside(d)), inside = std::abs(Anatomy::lumens(d));
     Colour colour;
-    if (inside < outside && inside < 0.3 && arteries > 0.5 && veins > 0.5) {
+    if (inside < outside && inside < 0.3) {
         int nearest = 0;
         for (int i = 1; i < Anatomy::kParts; ++i)
             if (d.lumen[i] < d.lumen[nearest])
@@ -35,12 +35,13 @@ glm::u8vec3 heartColour(const Point& p, const HeartAnatomy::Distances& d, double
     } else {
         colour = mix(kVentricle, kVentricleDark, 0.75 * broad);
         const double ventricles = Anatomy::ventricles(d);
-        const double atria = blend(d.outer[Anatomy::leftAtrium], d.outer[Anatomy::rightAtrium], 4);
+        const double atria = blend(d.outer[Anatomy::leftAtrium], d.outer[Anatomy::rightAtrium], 8);
         colour = mix(colour, mix(kAtrium, kVentricle, 0.4 * broad), ramp(-1.5, 1.5, ventricles - atria));
         const double muscle = std::min(ventricles, atria);
         // Vessels begin where they leave the muscle.
         const auto vessel = [&](double distance, const Colour& own) {
-            colour = mix(colour, mix(own, own * 0.86, fine), ramp(-0.6, 1.8, muscle - distance));
+            colour = mix(colour, mix(own, own * 0.86, fine),
+                         ramp(-0.6, 1.8, muscle - distance) * (1 - ramp(0.6, 2.5, distance)));
         };
         vessel(d.outer[Anatomy::veins], kPulmonaryVein);
         vessel(d.outer[Anatomy::cavae], kCava);
@@ -54,7 +55,7 @@ glm::u8vec3 heartColour(const Point& p, const HeartAnatomy::Distances& d, double
         const double uneven = 2.2 * (fine - 0.5) + 1.6 * (broad - 0.5);
         double fat = 1 - ramp(1.8, 4.8, between + uneven);
         fat = std::max(fat, 1 - ramp(3.0, 6.0, crown + uneven));
-        fat = std::max(fat, 1 - ramp(1.2, 3.6, roots + uneven));
+        fat = std::max(fat, 1 - ramp(1.2, 3.6, std::min(roots, d.fat) + uneven));
         fat = std::max(fat, 0.75 * (1 - ramp(0.6, 2.6, std::min(arteries, veins) + 0.6 * uneven)));
         colour = mix(colour, mix(kFat, kFat * 0.88, broad), 0.92 * fat);
         colour = mix(colour, kVein, 1 - ramp(0.15, 0.75, veins));

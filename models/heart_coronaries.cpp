@@ -121,8 +121,9 @@ Coronaries layCoronaries(const HeartAnatomy& heart) {
             stops.push_back({lay.grooveHeight(a), a});
         return stops;
     };
-    out.arteries.add(lay.along(groove(30, -75), 1.9, 1.2, true));
-    const Stops right = groove(135, 252);
+    // The circumflex comes out from under the left auricle.
+    out.arteries.add(lay.along(groove(-22, -85), 1.9, 1.2, true));
+    const Stops right = groove(122, 252);
     out.arteries.add(lay.along(right, 2.1, 1.4, true));
     Stops sinus = groove(-20, -92);
     for (Layer::Stop& s : sinus)

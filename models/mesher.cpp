@@ -15,7 +15,7 @@ constexpr double kMostPoints = 4e7; // lattice points: 320 MB
 Result<sim::TriangleMesh> meshShape(const MeshSource& source, std::size_t faces) {
     faces += faces % 2;
     const Point extent = source.highest - source.lowest;
-    const double coarsest = std::min(0.7 * source.thinnest, std::max({extent.x, extent.y, extent.z}) / 30);
+    const double coarsest = std::min(0.95 * source.thinnest, std::max({extent.x, extent.y, extent.z}) / 30);
     double cell = coarsest;
     sim::TriangleMesh mesh = marchTetrahedra(source, cell);
     // A coarse lattice misses part of a thin shape, so the first guess may need a second.

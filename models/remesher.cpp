@@ -8,6 +8,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <algorithm>
+#include <array>
 #include <queue>
 
 namespace serosa::models {
@@ -50,36 +51,41 @@ public:
             SEROSA_CHECK(added.is_valid(), "marching tetrahedra gave a face that is not manifold");
         }
         faces_ = input.faces.size();
-        normal_.resize(at_.size());
-        size_.resize(at_.size());
-        stamp_.resize(at_.size());
-        for (std::size_t i = 0; i < at_.size(); ++i) {
-            Point p = at_[i];
-            if (project(p, normal_[i]) && glm::length(p - at_[i]) < 2)
-                at_[i] = p;
-            size_[i] = sizeAt(at_[i]);
+        // The first normals are the mesh's own; the gradient replaces them as vertices are projected.
+        normal_.assign(at_.size(), Point(0));
+        for (const glm::uvec3& f : input.faces) {
+            const Point n = glm::cross(at_[f.y] - at_[f.x], at_[f.z] - at_[f.x]);
+            for (int k = 0; k < 3; ++k)
+                normal_[f[k]] += n;
         }
+        for (const Point& p : at_)
+            size_.push_back(sizeAt(p));
+        for (Point& n : normal_)
+            n = glm::normalize(n + Point(0, 0, 1e-300));
+        stamp_.resize(at_.size());
     }
 
     sim::TriangleMesh run(std::size_t target) {
         const std::size_t spare = target + target / 150 + 8;
-        for (double above : {1.8, 1.25}) {
-            collapseTo(std::max(spare, static_cast<std::size_t>(above * static_cast<double>(target))));
-            flip();
-            relax();
-        }
-        for (int round = 0; round < 4 && faces_ > spare; ++round) {
-            collapseTo(spare);
+        // Far above the wanted count, edges are so short that a new vertex need not be projected at once.
+        draft_ = true;
+        collapseTo(std::max(spare, target * 9 / 5));
+        draft_ = false;
+        flip();
+        relax();
+        for (const std::size_t count : {std::max(spare, target * 5 / 4), spare, spare, spare}) {
+            if (faces_ <= count)
+                continue;
+            collapseTo(count);
             flip();
             relax();
         }
         for (int round = 0; round < 3; ++round) {
-            relax();
+            removePoor(target);
             flip();
+            relax();
         }
-        removePoor(target);
-        flip();
-        relax();
+        settle();
         return result();
     }
 
@@ -168,7 +174,7 @@ private:
         // Very short edges make thin faces wherever they are: be content with less to be rid of them.
         const double least = relativeLength(e) < 0.35 * wanted ? std::min(0.5 * before, 0.12) : before;
         const auto place = [&](const Point& p, const Point& n) {
-            const double s = sizeAt(p);
+            const double s = draft_ ? 0.5 * (size(gone) + size(kept)) : sizeAt(p);
             for (const Vertex v : {gone, kept})
                 for (auto w = mesh_.cvv_iter(v); w.is_valid(); ++w)
                     if (*w != gone && *w != kept &&
@@ -188,7 +194,9 @@ private:
         };
         Point p = 0.5 * (at(gone) + at(kept)), n = normal(kept);
         const Point middle = p;
-        if (project(p, n) && glm::length(p - middle) < 0.5 * wanted && place(p, n))
+        if (draft_ && place(p, glm::normalize(normal(gone) + normal(kept))))
+            return true;
+        if (!draft_ && project(p, n) && glm::length(p - middle) < 0.5 * wanted && place(p, n))
             return true;
         return place(Point(at(kept)), Point(normal(kept))) || place(Point(at(gone)), Point(normal(gone)));
     }
@@ -287,11 +295,28 @@ private:
             const Vertex a = *v++, b = *v++, c = *v;
             if (leastAngle(at(a), at(b), at(c)) > kPoorAngle)
                 continue;
-            Edge shortest;
+            std::array<Edge, 3> edges;
+            std::size_t count = 0;
             for (auto e = mesh_.cfe_iter(f); e.is_valid(); ++e)
-                if (!shortest.is_valid() || relativeLength(*e) < relativeLength(shortest))
-                    shortest = *e;
-            tryCollapse(shortest, wanted);
+                edges[count++] = *e;
+            std::sort(edges.begin(), edges.end(),
+                      [&](Edge x, Edge y) { return relativeLength(x) < relativeLength(y); });
+            if (!tryCollapse(edges[0], wanted))
+                tryCollapse(edges[1], wanted);
+        }
+    }
+
+    /// Projects what no accepted move has projected yet.
+    void settle() {
+        for (auto v : mesh_.vertices()) {
+            const auto i = static_cast<std::size_t>(v.idx());
+            if (std::abs(source_.distance(at_[i])) < 5 * kOnSurface)
+                continue;
+            Point p = at_[i], n;
+            if (project(p, n) && glm::length(p - at_[i]) < 0.5) {
+                at_[i] = p;
+                normal_[i] = n;
+            }
         }
     }
 
@@ -319,6 +344,7 @@ private:
     std::vector<unsigned> stamp_;
     std::size_t faces_ = 0;
     mutable double slope_ = 1;
+    bool draft_ = false;
 };
 
 } // namespace

@@ -6,6 +6,9 @@
 namespace serosa::models {
 
 double ellipsoid(const Point& p, const Point& e) {
+    const double away = glm::length(p) - std::max({e.x, e.y, e.z});
+    if (away > 20)
+        return away; // a lower bound is enough
     const Point y = glm::max(glm::abs(p), 1e-9);
     const Point e2 = e * e, ey = e * y;
     double t = std::max({ey.x - e2.x, ey.y - e2.y, ey.z - e2.z});
@@ -16,7 +19,7 @@ double ellipsoid(const Point& p, const Point& e) {
         const Point slope = r2 / (e2 + t);
         const double advance = f / (2 * (slope.x + slope.y + slope.z));
         t += advance;
-        if (std::abs(advance) < 1e-11 * e2.x)
+        if (std::abs(advance) < 1e-10 * e2.x)
             break;
     }
     const Point closest = e2 * y / (e2 + t);

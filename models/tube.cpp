@@ -52,21 +52,32 @@ Tube::Tube(std::vector<TubePoint> points, End start, End finish, double beyond) 
         include(p.at, p.radius);
     for (const Stump& s : stumps_)
         include(s.from + s.length * s.direction, s.radius);
+    constexpr std::size_t kRun = 5;
+    for (std::size_t first = 0; first + 1 < points_.size(); first += kRun) {
+        Run run{first, std::min(first + kRun, points_.size() - 1), Point(0), 0};
+        run.centre = 0.5 * (points_[run.first].at + points_[run.last].at);
+        for (std::size_t i = run.first; i <= run.last; ++i)
+            run.radius = std::max(run.radius, glm::length(points_[i].at - run.centre) + points_[i].radius);
+        runs_.push_back(run);
+    }
 }
 
-double Tube::distance(const Point& p, double grow) const {
-    const double away = glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0)) - grow;
-    if (away > 15)
+double Tube::distance(const Point& p) const {
+    const double away = glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0));
+    if (away > kReach)
         return away;
     double best = 1e9;
-    for (std::size_t i = 0; i + 1 < points_.size(); ++i)
-        best = std::min(
-            best,
-            capsule(p, points_[i].at, points_[i + 1].at, points_[i].radius, points_[i + 1].radius) - grow);
+    for (const Run& run : runs_) {
+        if (glm::length(p - run.centre) - run.radius > best)
+            continue;
+        for (std::size_t i = run.first; i < run.last; ++i)
+            best = std::min(
+                best, capsule(p, points_[i].at, points_[i + 1].at, points_[i].radius, points_[i + 1].radius));
+    }
     for (const Stump& s : stumps_) {
         const double along = glm::dot(p - s.from, s.direction);
         const double beside = glm::length(p - s.from - along * s.direction) - s.radius;
-        best = std::min(best, common(std::max(beside - grow, -along), along - s.length, 1.5));
+        best = std::min(best, common(std::max(beside, -along), along - s.length, 1.5));
     }
     return best;
 }

@@ -25,8 +25,10 @@ public:
     explicit Tube(std::vector<TubePoint> points, End start = End::round, End finish = End::round,
                   double beyond = 2.0);
 
-    /// Distance to the tube with radii grown by `grow` (cuts stay). More than 15 away, a lower bound of it.
-    double distance(const Point& p, double grow = 0) const;
+    /// Distance to the tube. More than kReach away, a lower bound of it.
+    double distance(const Point& p) const;
+
+    static constexpr double kReach = 12.0;
 
 private:
     struct Stump {
@@ -34,7 +36,14 @@ private:
         double length, radius;
     };
 
+    struct Run { // consecutive segments and a sphere that holds them
+        std::size_t first, last;
+        Point centre;
+        double radius;
+    };
+
     std::vector<TubePoint> points_;
+    std::vector<Run> runs_;
     std::vector<Stump> stumps_;
     Point lowest_, highest_;
 };
