@@ -59,7 +59,7 @@ bool LineReader::cut() {
 std::string quoted(std::string_view word) {
     std::string text = "'";
     for (const char c : word.substr(0, 24))
-        text += c >= ' ' && c <= '~' ? c : '?';
+        text += c >= ' ' && c <= '~' ? c : '.';
     return text + (word.size() > 24 ? "...'" : "'");
 }
 
