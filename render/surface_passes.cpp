@@ -14,7 +14,7 @@ namespace {
 
 using sim::SurfaceColour;
 
-constexpr glm::u8vec3 kFlesh{178, 78, 68}; // sRGB, where the mesh has no colours
+constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB, where the mesh has no colours
 
 /// Square root of the linear value: the vertex stage squares it, and 8 bits suffice in the dark.
 std::uint8_t rootOfLinear(std::uint8_t srgb) {
