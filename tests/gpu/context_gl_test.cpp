@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace serosa::gpu {
@@ -135,6 +137,74 @@ TEST_F(GlContexts, UnderThePolicyLogNothingIsRecorded) {
     const std::string printed = testing::internal::GetCapturedStdout();
     EXPECT_TRUE(takeGlErrors().empty());
     EXPECT_NE(printed.find("glEnable"), std::string::npos) << printed;
+}
+
+/// Sets SEROSA_GL_DISABLE for a scope.
+class ScopedDisable {
+public:
+    explicit ScopedDisable(const char* kinds) { setenv("SEROSA_GL_DISABLE", kinds, 1); }
+    ~ScopedDisable() { unsetenv("SEROSA_GL_DISABLE"); }
+    ScopedDisable(const ScopedDisable&) = delete;
+    ScopedDisable& operator=(const ScopedDisable&) = delete;
+};
+
+TEST_F(GlContexts, WithoutAnyTheErrorNamesEachKindThatWasTried) {
+    const ScopedDisable off("egl,osmesa,egl-device");
+    const auto context = createContext(GlChoice::automatic);
+    ASSERT_FALSE(context.ok());
+    EXPECT_EQ(context.error().exitCode, 5);
+    const std::string& message = context.error().message;
+    for (const char* part : {"; egl-device: switched off", "; egl: switched off", "; osmesa: switched off"})
+        EXPECT_NE(message.find(part), std::string::npos) << part << " is missing in " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << "one line";
+    const auto one = createContext(GlChoice::osmesa);
+    ASSERT_FALSE(one.ok());
+    EXPECT_EQ(one.error().message.find("egl:"), std::string::npos) << "only what was asked for is tried";
+}
+
+TEST_F(GlContexts, AutomaticFallsBackToSoftware) {
+    const ScopedDisable off("egl,egl-device");
+    const auto context = createContext(GlChoice::automatic);
+    ASSERT_TRUE(context.ok()) << context.error().message;
+    EXPECT_EQ((*context)->kind(), ContextKind::osmesa);
+}
+
+TEST_F(GlContexts, AWrongDisableListIsAnError) {
+    const ScopedDisable off("egl,glx");
+    const auto context = createContext(GlChoice::automatic);
+    ASSERT_FALSE(context.ok());
+    EXPECT_NE(context.error().message.find("unknown kind \"glx\""), std::string::npos)
+        << context.error().message;
+}
+
+TEST_F(GlContexts, TheSurveyLeavesTheCurrentContextCurrent) {
+    std::vector<ContextOffer> offers;
+    {
+        const Marker marker({1, 0, 0, 1});
+        offers = surveyContexts();
+        EXPECT_EQ(marker.read(), kRed);
+    }
+    ASSERT_EQ(offers.size(), 3u);
+    for (const ContextOffer& offer : offers) {
+        EXPECT_TRUE(offer.available) << offer.problem;
+        EXPECT_EQ(offer.limits.size(), 8u);
+        EXPECT_EQ(offer.floatTargets.size(), 4u);
+        for (const auto& [name, works] : offer.floatTargets)
+            EXPECT_TRUE(works) << contextKindName(offer.kind) << " " << name;
+    }
+    const auto taken = createContext(GlChoice::automatic);
+    ASSERT_TRUE(taken.ok());
+    EXPECT_EQ(automaticKind(offers), (*taken)->kind());
+}
+
+TEST(ContextNames, RoundTripThroughTheCommandLine) {
+    EXPECT_EQ(parseGlChoice("auto").value(), GlChoice::automatic);
+    EXPECT_EQ(parseGlChoice(contextKindName(ContextKind::egl)).value(), GlChoice::egl);
+    EXPECT_EQ(parseGlChoice(contextKindName(ContextKind::eglDevice)).value(), GlChoice::eglDevice);
+    EXPECT_EQ(parseGlChoice(contextKindName(ContextKind::osmesa)).value(), GlChoice::osmesa);
+    const auto wrong = parseGlChoice("vulkan");
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_NE(wrong.error().message.find("use auto, egl, egl-device or osmesa"), std::string::npos);
 }
 
 } // namespace
