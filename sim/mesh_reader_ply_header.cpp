@@ -185,25 +185,28 @@ private:
 
     /// A count that the rest of the file cannot hold is refused here, before anything is reserved for it.
     Status compareWithSize() const {
-        const std::size_t left = source_.bytes.size() - header_.bodyOffset;
+        const bool text = header_.encoding == PlyEncoding::text;
+        std::size_t left =
+            source_.bytes.size() - header_.bodyOffset + (text ? 1 : 0); // the last line end may be missing
         for (const auto& element : header_.elements) {
             std::size_t rowBytes = 0; // at least
             for (const auto& property : element.properties) {
-                if (header_.encoding == PlyEncoding::text)
-                    rowBytes += 2; // a digit and a blank or line end; the file's last may be missing
+                if (text)
+                    rowBytes += 2; // a digit and a blank or line end
                 else
                     rowBytes += plySize(property.isList ? property.lengthType : property.type);
                 if (property.role == PlyRole::corners)
-                    rowBytes += header_.encoding == PlyEncoding::text ? 6 : 3 * plySize(property.type);
+                    rowBytes += text ? 6 : 3 * plySize(property.type);
             }
             if (rowBytes == 0 && element.count > 0)
                 return error("the element " + quoted(element.name) +
                              " has rows but no properties; remove it");
-            if (element.count > 0 && element.count > (left + 1) / rowBytes)
-                return error("the header announces " + std::to_string(element.count) + " " + element.name +
-                             " rows of at least " + std::to_string(rowBytes) + " bytes, but " +
-                             std::to_string(left) +
-                             " bytes follow; the file is cut off or its header wrong, export it again");
+            if (element.count > 0 && element.count > left / rowBytes)
+                return error(
+                    "the header announces " + std::to_string(element.count) + " " + element.name +
+                    " rows of at least " + std::to_string(rowBytes) + " bytes, but " + std::to_string(left) +
+                    " bytes are left for them; the file is cut off or its header wrong, export it again");
+            left -= element.count * rowBytes;
         }
         return {};
     }
