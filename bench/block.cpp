@@ -1,0 +1,42 @@
+// Lattices that the benchmarks step.
+
+#include "bench/cases.h"
+#include "models/phantom.h"
+
+namespace serosa::bench {
+
+Block::Block(sim::Lattice made, double young) : lattice(std::move(made)) {
+    setup.lattice = &lattice;
+    setup.tissue.young = young;
+    setup.tissue.density = 1060;
+    setup.gravity = {0, -9.81, 0};
+    setup.timeStep = sim::stableStep(lattice, setup.tissue, 1.0 / 60).timeStep;
+    setup.fixed.resize(lattice.nodeCount());
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        setup.fixed[node] = lattice.nodes[node].y == 0;
+}
+
+sim::Lattice denseLattice(int nodesAlongAnEdge) {
+    std::vector<sim::LatticeCell> cells;
+    for (int z = 0; z + 1 < nodesAlongAnEdge; ++z)
+        for (int y = 0; y + 1 < nodesAlongAnEdge; ++y)
+            for (int x = 0; x + 1 < nodesAlongAnEdge; ++x)
+                cells.push_back({{x, y, z}, 255});
+    return sim::latticeFromCells(std::move(cells), 2.5e-3, glm::dvec3(0));
+}
+
+Result<const sim::TriangleMesh*> heartSurface() {
+    static sim::TriangleMesh heart;
+    if (heart.faces.empty()) {
+        SEROSA_ASSIGN(heart, models::makePhantom("heart", 50000));
+        for (glm::dvec3& position : heart.positions)
+            position *= 1e-3; // mm
+    }
+    return &heart;
+}
+
+Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block, const sim::FragmentOptions& options) {
+    return sim::makeFragmentSolver(block.setup, options);
+}
+
+} // namespace serosa::bench

@@ -1,0 +1,44 @@
+#pragma once
+// The cases of serosa_bench. Each function measures some of them in interleaved rounds and reports.
+
+#include "base/result.h"
+#include "bench/report.h"
+#include "gpu/context.h"
+#include "sim/solver.h"
+
+#include <cstddef>
+
+namespace serosa::bench {
+
+struct Options {
+    int rounds = 5;
+    double seconds = 0.4;          // a turn of a case
+    std::size_t largest = 1000000; // nodes, of the growth tables
+};
+
+/// A lattice with all that a solver needs, at rest, loaded by gravity. Does not move.
+struct Block {
+    sim::Lattice lattice;
+    sim::SolverSetup setup;
+    Block(sim::Lattice made, double young);
+    Block(const Block&) = delete;
+};
+/// n^3 nodes, all cells full, spacing 2.5 mm.
+sim::Lattice denseLattice(int nodesAlongAnEdge);
+/// The heart phantom's surface in metres (made once).
+Result<const sim::TriangleMesh*> heartSurface();
+
+/// A fragment solver behind the `advance, then wait` that Rounds wants.
+Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block,
+                                                    const sim::FragmentOptions& options = {});
+
+/// scalar_over_fragment_dense20k, and what normals, eq. 2, imageLoad and damping cost
+/// (bench/solver_cases.cpp).
+Status benchSolver(const Options& options, Report& report);
+/// mapping_over_static, corrected_over_constant(_frame), vertex fetch against readback, and MS05's own table
+/// (bench/mapping_cases.cpp).
+Status benchMapping(const Options& options, Report& report);
+/// Time and bytes a node from 5,000 nodes upwards, for both layouts (bench/growth_cases.cpp).
+Status benchGrowth(const Options& options, Report& report);
+
+} // namespace serosa::bench
