@@ -28,6 +28,7 @@ namespace {
 constexpr int kSampleEvery = 10; // frames between two samples of the energies
 constexpr int kTileWidth = 320;  // pixels of a picture on the contact sheet, at most
 constexpr int kExitInterrupted = 130;
+constexpr double kLeastToolSpacings = 1.5; // radius of a tool that the nodes resolve, in lattice spacings
 
 /// Adds the wall time of its life to a sum of seconds.
 class Stopwatch {
@@ -222,6 +223,10 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
             << shortNumber(parts.step.margin) << ")\n";
+    for (const sim::Tool& tool : parts.scene.tools)
+        if (tool.radius < kLeastToolSpacings * parts.lattice.spacing)
+            out << "note: " << tool.name << " has a radius of " << shortNumber(1e3 * tool.radius)
+                << " mm; below " << kLeastToolSpacings << " spacings it slips between the lattice's nodes\n";
     if (parts.binding.tornEdgesFound > 0)
         out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
             << " left after flooding\n";

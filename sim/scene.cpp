@@ -78,6 +78,9 @@ Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const 
     }
 
     Scene scene;
+    // A scanned organ has its shape with its weight on it, and rests on all that surrounds it. Held at its
+    // lowest 5% alone a soft one would fall over: the default leaves gravity out.
+    scene.gravity = glm::dvec3(0);
     Organ organ;
     organ.model = model;
     organ.name = model.stem().string();
@@ -87,7 +90,7 @@ Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const 
 
     Tool probe;
     probe.name = "probe";
-    probe.radius = 0.08 * size;
+    probe.radius = 0.12 * size; // several spacings: a smaller sphere slips between nodes
     const auto at = [&](double height) { return top + glm::dvec3(0, probe.radius + height * size, 0); };
     probe.keys = {{0.0, at(0.05)}, {0.8, at(-0.05)}, {1.1, at(-0.05)}, {1.5, at(0.1)}};
     scene.tools.push_back(probe);

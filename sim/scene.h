@@ -118,9 +118,9 @@ struct SceneProblem {
 std::optional<SceneProblem> findSceneProblem(const Scene& scene);
 
 /// The scene that `serosa run --model FILE --length-unit U` uses: 5 kPa, Poisson 0.25, 1000 kg/m3, 20,000
-/// nodes, 60 Hz, 120 frames, the lowest 5% fixed, a probe that presses the top by 5% of the size and leaves.
-/// \param metres the surface in metres (at least one vertex); its top is the vertex nearest to its middle
-/// among those within 2% of the greatest y.
+/// nodes, 60 Hz, 120 frames, no gravity, the lowest 5% fixed, a probe that presses the top by 5% of the size
+/// and leaves. \param metres the surface in metres (at least one vertex); its top is the vertex nearest to
+/// its middle among those within 2% of the greatest y.
 Scene defaultScene(const std::filesystem::path& model, double lengthUnit, const TriangleMesh& metres);
 
 /// "mm", "cm", "m", "um", "in" in metres. Errors: unknown unit, with a suggestion.
