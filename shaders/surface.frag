@@ -45,20 +45,20 @@ void main() {
     vec2 shade = toolShade(v_position, n);
     float open = v_colour.a * shade.x, ndl = dot(n, u_toKey), ndv = max(dot(n, v), 0.02);
 
-    const vec3 kWrap = vec3(0.42, 0.16, 0.11);
+    const vec3 kWrap = vec3(0.40, 0.13, 0.08);
     vec3 key = max((ndl + kWrap) / ((1.0 + kWrap) * (1.0 + kWrap)), 0.0);
     key *= mix(vec3(1.0), vec3(shade.y), vec3(0.80, 0.93, 0.95)); // some red light gets under the tool's shadow
-    vec3 occluded = pow(vec3(open), vec3(0.75, 1.0, 1.05)); // and into the grooves
-    float back = max((dot(n, u_toBack) + 0.3) / 1.69, 0.0) * open;
-    vec3 colour = albedo * (kKeyColour * key * (2.1 * u_key) * mix(0.6 + 0.4 * v_colour.a, 1.0, 0.5) +
-                            surround(n) * 1.15 * occluded + kBackColour * (0.55 * u_key * back));
+    key *= 0.45 + 0.55 * v_colour.a;
+    vec3 occluded = vec3(sqrt(open), open, open); // and into the grooves
+    float back = max((dot(n, u_toBack) + 0.25) / 1.56, 0.0) * open;
+    vec3 colour = albedo * (kKeyColour * key * (1.75 * u_key) + surround(n) * 0.75 * occluded +
+                            kBackColour * (0.35 * u_key * back));
 
+    // The tissue's own rough lobe, then the film: what a sharp mirror sees, by Fresnel.
     vec3 h = normalize(v + u_toKey);
-    float ndh = max(dot(n, h), 0.0), ldh = max(dot(u_toKey, h), 0.0), lit = max(ndl, 0.0) * shade.y;
-    colour += kKeyColour * (0.028 * lit * 3.1 * 2.1 * u_key * ggx(0.16, ndh, ldh));
-    float glance = fresnel(0.026, ndv) * (1.0 - 0.35 * smoothstep(0.0, 0.25, 0.25 - ndv) * 4.0 * 0.25);
-    float seen = clamp(open * open * 1.15, 0.0, 1.0);
-    colour += studio(reflect(-v, n), 0.12) * glance * seen * mix(0.45, 1.0, shade.y);
-    o_colour = vec4(toneMap(colour * 0.95), 1.0);
+    float ndh = max(dot(n, h), 0.0), ldh = max(dot(u_toKey, h), 0.0);
+    colour += kKeyColour * (0.09 * max(ndl, 0.0) * shade.y * u_key * ggx(0.13, ndh, ldh) * v_colour.a);
+    colour += studio(reflect(-v, n), 0.1) * (fresnel(0.028, ndv) * open * open * mix(0.45, 1.0, shade.y));
+    o_colour = vec4(toneMap(colour), 1.0);
 #endif
 }

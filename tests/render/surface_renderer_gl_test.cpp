@@ -1,0 +1,176 @@
+// Pictures whose content is known without a reference picture.
+#include "render/mapping_measures.h"
+#include "render/surface_renderer.h"
+#include "tests/gl_fixture.h"
+#include "tests/render/shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace serosa::render {
+namespace {
+
+constexpr double kSpacing = 0.004, kRadius = 5.2 * kSpacing; // m
+constexpr int kSize = 256;                                   // pixels
+constexpr double kHeight = 0.06;                             // m, of the orthographic picture
+
+class GlSurfaceRenderer : public test::GlTest {
+protected:
+    void SetUp() override {
+        test::GlTest::SetUp();
+        if (HasFatalFailure())
+            return;
+        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
+        centre_ = lattice_.toWorld(glm::dvec3(6 - lattice_.centre));
+        mesh_ = test::ballMesh(40, kRadius, centre_);
+        auto state = sim::StateTextures::create(lattice_, {});
+        ASSERT_TRUE(state.ok());
+        state_.emplace(std::move(state).value());
+        auto renderer = SurfaceRenderer::create(
+            lattice_, mesh_, bindSurface(lattice_, mesh_, sim::Mapping::curvature), *state_, kSize, kSize);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+        renderer_.emplace(std::move(renderer).value());
+        sim::Camera camera;
+        camera.projection = sim::Projection::orthographic;
+        camera.direction = {0, 0, -1};
+        camera.target = centre_;
+        camera.height = kHeight;
+        view_.camera = makeCamera(camera, mesh_.lowest(), mesh_.highest(), 1);
+    }
+    void TearDown() override {
+        renderer_.reset();
+        state_.reset();
+        test::GlTest::TearDown();
+    }
+    Image draw() {
+        renderer_->draw(*state_, view_);
+        return renderer_->readImage();
+    }
+    static glm::ivec3 pixel(const Image& image, int x, int y) {
+        const std::uint8_t* p = &image.rgb[std::size_t(y * image.width + x) * 3];
+        return {p[0], p[1], p[2]};
+    }
+    /// Share of the picture that is nearer to `on` than to `off` in one channel, with partial coverage
+    /// counted as such.
+    static double share(const Image& with, const Image& without, int threshold) {
+        double count = 0;
+        for (std::size_t i = 0; i < with.rgb.size(); i += 3) {
+            int difference = 0;
+            for (std::size_t c = 0; c < 3; ++c)
+                difference = std::max(difference, std::abs(int(with.rgb[i + c]) - int(without.rgb[i + c])));
+            count += difference > threshold;
+        }
+        return count / (double(with.rgb.size()) / 3);
+    }
+
+    sim::Lattice lattice_;
+    sim::TriangleMesh mesh_;
+    glm::dvec3 centre_{0};
+    std::optional<sim::StateTextures> state_;
+    std::optional<SurfaceRenderer> renderer_;
+    View view_;
+};
+
+TEST_F(GlSurfaceRenderer, SilhouetteOfABallHasItsArea) {
+    view_.look.colour = sim::SurfaceColour::dynamicNormal;
+    const Image ball = draw();
+    view_.look.surface = false;
+    const Image empty = draw();
+    const double expected = std::numbers::pi * kRadius * kRadius / (kHeight * kHeight);
+    // pixels on the rim count when any part differs visibly: half a pixel around the rim
+    const double rim = std::numbers::pi * 2 * kRadius / kHeight / kSize * 0.5;
+    EXPECT_NEAR(share(ball, empty, 8), expected + 0.7 * rim, 0.01 * expected);
+}
+
+TEST_F(GlSurfaceRenderer, BallIsRoundCentredAndUpright) {
+    view_.look.surface = false;
+    const Image empty = draw();
+    view_.look.surface = true;
+    view_.look.colour = sim::SurfaceColour::dynamicNormal;
+    // Move everything up by a quarter of the picture's height and right by an eighth.
+    const glm::dvec3 shift(kHeight / 8 / kSpacing, kHeight / 4 / kSpacing, 0);
+    state_->upload(deformedState(lattice_, [&](const glm::dvec3& q) { return 0.5 * q + shift; }));
+    const Image moved = draw();
+    double sumX = 0, sumY = 0, count = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            if (pixel(moved, x, y) != pixel(empty, x, y)) {
+                sumX += x + 0.5;
+                sumY += y + 0.5;
+                ++count;
+            }
+    ASSERT_GT(count, 100);
+    const glm::dvec3 middle = lattice_.toWorld(0.5 * lattice_.toLattice(centre_) + shift) - centre_;
+    EXPECT_NEAR(sumX / count, kSize * (0.5 + middle.x / kHeight), 1);
+    EXPECT_NEAR(sumY / count, kSize * (0.5 - middle.y / kHeight), 1); // row 0 is the top
+}
+
+TEST_F(GlSurfaceRenderer, ColoursOfTheNormalTurnWithTheLattice) {
+    view_.look.colour = sim::SurfaceColour::dynamicNormal;
+    const glm::ivec3 front = pixel(draw(), kSize / 2, kSize / 2);
+    EXPECT_GT(front.z, front.x + 20); // towards the eye is +z: blue
+    EXPECT_NEAR(front.x, front.y, 25);
+    // A quarter turn about y brings what faced +x to the front; its dynamic normal is +z again, so the colour
+    // stays.
+    const glm::dvec3 c = lattice_.toLattice(centre_);
+    state_->upload(deformedState(lattice_, [&](const glm::dvec3& q) {
+        const glm::dvec3 p = q - c;
+        return c + glm::dvec3(-p.z, p.y, p.x);
+    }));
+    const glm::ivec3 turned = pixel(draw(), kSize / 2, kSize / 2);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(turned[i], front[i], 6);
+}
+
+TEST_F(GlSurfaceRenderer, SameStateGivesTheSameBytes) {
+    EXPECT_EQ(draw().rgb, draw().rgb);
+    for (const std::uint8_t corner : {draw().rgb[0], draw().rgb.back()})
+        EXPECT_LT(corner, 60); // the backdrop is dark
+}
+
+TEST_F(GlSurfaceRenderer, OneToOneShowsTheCellsOutline) {
+    view_.look.surface = false;
+    const Image empty = draw();
+    view_.look.surface = true;
+    view_.look.mapping = sim::Mapping::oneToOne;
+    // Seen along z the lattice covers each column that holds a cell.
+    std::vector<bool> column(std::size_t(lattice_.nodeDims.x * lattice_.nodeDims.y), false);
+    for (const sim::LatticeCell& cell : lattice_.cells)
+        column[std::size_t(cell.grid.y * lattice_.nodeDims.x + cell.grid.x)] = true;
+    const auto columns = double(std::count(column.begin(), column.end(), true));
+    const double expected = columns * kSpacing * kSpacing / (kHeight * kHeight);
+    EXPECT_NEAR(share(draw(), empty, 8), expected, 0.03 * expected);
+}
+
+TEST_F(GlSurfaceRenderer, ToolHidesWhatIsBehindItAndLatticeLinesAreThin) {
+    const Image bare = draw();
+    view_.toolSpheres = {{centre_ + glm::dvec3(0, 0, 1.2 * kRadius), 0.25 * kRadius}};
+    const Image tool = draw();
+    const double disc = std::numbers::pi * std::pow(0.25 * kRadius / kHeight, 2);
+    EXPECT_GE(share(tool, bare, 10), 0.9 * disc);
+    view_.look.tools = false;
+    EXPECT_EQ(draw().rgb, bare.rgb);
+    view_.look.lattice = true;
+    const double lines = share(draw(), bare, 10);
+    EXPECT_GT(lines, 0.02);
+    EXPECT_LT(lines, 0.5);
+}
+
+TEST_F(GlSurfaceRenderer, SurfaceFilesAreInMeshOrderAndMetres) {
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
+        const std::vector<glm::dvec3> positions = renderer_->readDeformedPositions(*state_, mapping);
+        ASSERT_EQ(positions.size(), mesh_.positions.size());
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            ASSERT_LE(glm::distance(positions[v], mesh_.positions[v]), 2e-6 * kRadius);
+    }
+}
+
+TEST_F(GlSurfaceRenderer, EveryVertexStageRunsWithoutATarget) {
+    for (const VertexStage stage : {VertexStage::undeformed, VertexStage::constant, VertexStage::corrected})
+        renderer_->drawVertexStageOnly(*state_, stage); // GL errors fail the test
+    EXPECT_GE(renderer_->samples(), 4);
+    EXPECT_EQ(SurfaceRenderer::bytesPerVertex(), 36U);
+}
+
+} // namespace
+} // namespace serosa::render
