@@ -13,6 +13,8 @@ namespace serosa::app {
 
 namespace {
 
+constexpr std::size_t kAnyFaces = 10000; // for a name that makePhantom will refuse
+
 std::string sizeText(const glm::dvec3& size) {
     return shortNumber(size.x) + " x " + shortNumber(size.y) + " x " + shortNumber(size.z);
 }
@@ -88,10 +90,12 @@ Result<int> writePhantom(const std::string& name, std::size_t faces, const std::
         return Error{file.string() + " is a folder: name a file, such as " + name + ".ply"};
     if (!force && std::filesystem::exists(file, code))
         return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
-    if (faces == 0)
+    if (faces == 0) {
+        faces = kAnyFaces;
         for (const models::PhantomInfo& info : models::phantoms())
             if (info.name == name)
                 faces = info.defaultFaces;
+    }
     SEROSA_ASSIGN(const sim::TriangleMesh mesh, models::makePhantom(name, faces));
     SEROSA_TRY(sim::writeMesh(mesh, file));
     out << file.string() << ": " << grouped(mesh.positions.size()) << " vertices, "

@@ -5,6 +5,7 @@
 
 #include "shaders/shared_constants.h"
 
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -154,6 +155,11 @@ std::string tableTitle(const std::string& table) {
 } // namespace
 
 std::string ValueRange::text() const {
+    const auto formatNumber = [](double value) { // limits are short numbers: 1000000, not 1e+06
+        std::ostringstream out;
+        out << std::setprecision(12) << value;
+        return out.str();
+    };
     const bool bounded = high < kInfinity;
     if (low == high)
         return formatNumber(low);

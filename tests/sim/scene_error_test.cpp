@@ -127,6 +127,10 @@ std::vector<BadScene> badScenes() {
     };
 }
 
+void PrintTo(const BadScene& bad, std::ostream* out) {
+    *out << bad.name;
+}
+
 class SceneErrors : public ::testing::TestWithParam<BadScene> {};
 
 TEST_P(SceneErrors, AreRefusedWhereTheyStand) {

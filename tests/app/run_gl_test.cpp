@@ -1,0 +1,172 @@
+// `serosa run` on a small solid: what it writes, the same bytes twice, the same with both solvers, a full
+// disk.
+
+#include "sim/mesh_reader.h"
+#include "tests/app/child.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <functional>
+
+namespace serosa::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The backend that this run of the tests is for.
+std::string glChoice() {
+    const char* gl = std::getenv("SEROSA_TEST_GL");
+    return gl ? gl : "auto";
+}
+
+class GlRun : public ::testing::Test {
+protected:
+    void SetUp() override {
+        folder_.write(
+            "ball.toml",
+            "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
+            "[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.3\n"
+            "[[tool]]\nradius = \"30 mm\"\nkeys = [{ t = \"0 s\", at = [\"0 mm\", \"72 mm\", \"0 mm\"] },"
+            " { t = \"100 ms\", at = [\"0 mm\", \"55 mm\", \"0 mm\"] }]\n"
+            "[output]\nsize = [64, 48]\nsurfaces_at = [\"0 s\", \"100 ms\"]\nframe_every = 3\n");
+        const ChildResult made = serosa({"phantom", "ball", "--faces", "500", "-o", "ball.ply"});
+        ASSERT_EQ(made.exitCode, 0) << made.err;
+    }
+    ChildResult serosa(const std::vector<std::string>& arguments, const ChildOptions& options = {}) const {
+        return runSerosa(folder_.path(), arguments, options);
+    }
+    ChildResult run(const std::string& out, std::vector<std::string> more = {},
+                    const ChildOptions& options = {}) const {
+        std::vector<std::string> arguments{"run",  "ball.toml", "--frames", "6",
+                                           "--gl", glChoice(),  "--out",    out};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return serosa(arguments, options);
+    }
+    nlohmann::json summary(const std::string& out) const {
+        return nlohmann::json::parse(readWhole(folder_.path() / out / "summary.json"), nullptr, false);
+    }
+    std::set<std::string> written(const std::string& out) const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder_.path() / out))
+            names.insert(entry.path().filename().string());
+        return names;
+    }
+    TestFolder folder_;
+};
+
+TEST_F(GlRun, WritesWhatTheReferenceSays) {
+    const ChildResult result = run("a");
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(written("a"),
+              (std::set<std::string>{"frame_000003.png", "frame_000006.png", "contact_sheet.png",
+                                     "surface_000000.ply", "surface_000006.ply", "summary.json"}));
+    const nlohmann::json json = summary("a");
+    ASSERT_FALSE(json.is_discarded());
+    EXPECT_EQ(json["solver"], "fragment");
+    EXPECT_EQ(json["frames"], 6);
+    EXPECT_EQ(json["end"], "complete");
+    EXPECT_EQ(json["pictures"], 2);
+    EXPECT_GT(json["largest_displacement_m"].get<double>(), 1e-3);
+    EXPECT_GT(json["tools"][0]["largest_force_N"].get<double>(), 0);
+    EXPECT_EQ(json["tools"][0]["force"].size(), 6u);
+    EXPECT_NEAR(json["lattice"]["nodes"].get<double>(), 200, 40);
+    EXPECT_EQ(json["state_hash"].get<std::string>().size(), 32u);
+    EXPECT_NEAR(json["step"]["time_step_s"].get<double>() * json["step"]["steps_per_frame"].get<int>(),
+                1.0 / 60, 1e-12);
+}
+
+TEST_F(GlRun, DocumentsEverySummaryKey) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    const std::string document = readWhole(fs::path(SEROSA_SOURCE_DIR) / "docs" / "cli.md");
+    const std::function<void(const nlohmann::json&)> check = [&](const nlohmann::json& json) {
+        if (json.is_array() && !json.empty())
+            check(json.front());
+        if (!json.is_object())
+            return;
+        for (const auto& [key, value] : json.items()) {
+            EXPECT_NE(document.find("`" + key + "`"), std::string::npos)
+                << "docs/cli.md does not explain " << key;
+            check(value);
+        }
+    };
+    check(summary("a"));
+}
+
+TEST_F(GlRun, GivesTheSameBytesTwice) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    ASSERT_EQ(run("b").exitCode, 0);
+    nlohmann::json first = summary("a"), second = summary("b");
+    first.erase("timing");
+    second.erase("timing");
+    EXPECT_EQ(first, second);
+    for (const std::string& name : written("a"))
+        if (name != "summary.json") {
+            EXPECT_EQ(readWhole(folder_.path() / "a" / name), readWhole(folder_.path() / "b" / name)) << name;
+        }
+}
+
+TEST_F(GlRun, SurfacesComeBackInUnitFrameAndOrderOfTheInput) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    const auto input = sim::readMesh(folder_.path() / "ball.ply");
+    const auto rest = sim::readMesh(folder_.path() / "a" / "surface_000000.ply");
+    const auto pressed = sim::readMesh(folder_.path() / "a" / "surface_000006.ply");
+    ASSERT_TRUE(input.ok() && rest.ok() && pressed.ok());
+    EXPECT_EQ(rest->positions, input->positions); // to the last bit
+    EXPECT_EQ(pressed->faces, input->faces);
+    ASSERT_EQ(pressed->positions.size(), input->positions.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < input->positions.size(); ++i)
+        largest = std::max(largest, glm::distance(pressed->positions[i], input->positions[i]));
+    EXPECT_GT(largest, 1);  // mm: the tool presses by 15 mm at most
+    EXPECT_LT(largest, 30); // mm
+}
+
+TEST_F(GlRun, ReferenceAndFragmentAgree) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    const ChildResult reference = run("b", {"--solver", "reference"});
+    ASSERT_EQ(reference.exitCode, 0) << reference.err;
+    const nlohmann::json a = summary("a"), b = summary("b");
+    EXPECT_EQ(b["solver"], "reference");
+    const double spacing = a["lattice"]["spacing_m"];
+    EXPECT_NEAR(a["largest_displacement_m"].get<double>(), b["largest_displacement_m"].get<double>(),
+                1e-3 * spacing);
+}
+
+TEST_F(GlRun, ForceReplacesOwnResultsAndKeepsTheRest) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    folder_.write("a/notes.txt", "mine");
+    folder_.write("a/frame_000099.png", "of a longer run");
+    EXPECT_EQ(run("a").exitCode, 2);
+    EXPECT_TRUE(fs::exists(folder_.path() / "a" / "frame_000099.png"));
+    ASSERT_EQ(run("a", {"--force"}).exitCode, 0);
+    EXPECT_TRUE(fs::exists(folder_.path() / "a" / "notes.txt"));
+    EXPECT_FALSE(fs::exists(folder_.path() / "a" / "frame_000099.png"));
+}
+
+TEST_F(GlRun, FullDiskLeavesNothing) {
+    const auto before = folder_.names();
+    const ChildOptions full{{{"MESA_SHADER_CACHE_DISABLE", "true"}}, 700};
+    const ChildResult result = run("a", {}, full);
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    EXPECT_EQ(folder_.names(), before);
+    const ChildResult phantom = serosa({"phantom", "ball", "--faces", "500", "-o", "new.ply"}, full);
+    EXPECT_EQ(phantom.exitCode, 2) << phantom.err;
+    EXPECT_EQ(phantom.errorLines(), 1u) << phantom.err;
+    EXPECT_EQ(folder_.names(), before);
+}
+
+TEST_F(GlRun, BendsByItsPose) {
+    folder_.write("bend.toml",
+                  "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
+                  "[organ.pose]\nbend_radius = \"100 mm\"\n[output]\nsize = [64, 64]\n");
+    const ChildResult result =
+        serosa({"run", "bend.toml", "--frames", "2", "--gl", glChoice(), "--out", "bend"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(summary("bend")["solver"], "pose");
+    EXPECT_GT(summary("bend")["largest_displacement_m"].get<double>(), 0.002);
+}
+
+} // namespace
+} // namespace serosa::app
