@@ -78,6 +78,33 @@ inline std::string plyBinary(bool little) {
     return bytes;
 }
 
+/// The same, with 16-bit coordinates, normals, a list and an element between, all to be passed over.
+inline std::string plyBinaryWithExtras(bool little) {
+    std::string bytes =
+        std::string("ply\nformat binary_") + (little ? "little" : "big") +
+        "_endian 1.0\nelement vertex 4\nproperty ushort x\nproperty short y\nproperty double nx\n"
+        "property char z\nelement ring 2\nproperty list ushort short members\nproperty float width\n"
+        "element face 4\nproperty list uchar uint vertex_index\nproperty list int float uv\nend_header\n";
+    for (const auto& p : tetrahedron().positions) {
+        append(bytes, static_cast<std::uint32_t>(p.x), 2, little);
+        append(bytes, static_cast<std::uint32_t>(p.y), 2, little);
+        bytes.append(8, '\x7f');
+        append(bytes, static_cast<std::uint32_t>(p.z), 1, little);
+    }
+    for (std::uint32_t members = 0; members < 2; ++members) {
+        append(bytes, members, 2, little);
+        bytes.append(2 * members + 4, '\x55');
+    }
+    for (const auto& face : tetrahedron().faces) {
+        append(bytes, 3, 1, little);
+        for (int corner = 0; corner < 3; ++corner)
+            append(bytes, face[corner], 4, little);
+        append(bytes, 1, 4, little);
+        bytes.append(4, '\x11');
+    }
+    return bytes;
+}
+
 inline std::string stlBinary() {
     std::string bytes(80, ' ');
     append(bytes, 4, 4, true);

@@ -96,7 +96,7 @@ Tally fuzz(const std::string& seed, unsigned number, int runs, const Read& read)
     return tally;
 }
 
-constexpr int kRuns = 10000;
+constexpr int kRuns = 5000;
 
 TEST(MeshFuzz, Obj) {
     fuzz(kObj, 1, kRuns, detail::readObj);
@@ -112,6 +112,9 @@ TEST(MeshFuzz, PlyLittleEndian) {
 }
 TEST(MeshFuzz, PlyBigEndian) {
     fuzz(plyBinary(false), 5, kRuns, detail::readPly);
+}
+TEST(MeshFuzz, PlyExtras) {
+    fuzz(plyBinaryWithExtras(true), 9, kRuns, detail::readPly);
 }
 TEST(MeshFuzz, StlText) {
     fuzz(kStlText, 6, kRuns, detail::readStl);

@@ -53,6 +53,11 @@ TEST_F(MeshReaderErrors, FilesThatCannotBeRead) {
     refuse("empty.stl", "", ": ", "empty (0 bytes)");
     ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
     expectRefused(folder_ / "pipe.obj", ": ", "not a regular file");
+    file("huge.obj", "v");
+    std::error_code noRoom;
+    std::filesystem::resize_file(folder_ / "huge.obj", std::uintmax_t(9) << 30, noRoom); // a hole, no bytes
+    if (!noRoom)
+        expectRefused(folder_ / "huge.obj", ": ", "larger than 8 GiB");
     file("plain", "x");
     expectRefused(folder_ / "plain" / "a.obj", ": ", "check the path");
 }
@@ -73,6 +78,10 @@ TEST_F(MeshReaderErrors, TruncatedFiles) {
     refuseTruncations(kPlyText.substr(0, kPlyText.size() - 1), detail::readPly); // all but the last line end
     refuseTruncations(plyBinary(true), detail::readPly);
     refuseTruncations(plyBinary(false), detail::readPly);
+    refuseTruncations(plyBinaryWithExtras(true), detail::readPly);
+    const std::string extras = plyBinaryWithExtras(true);
+    refuse("a.ply", extras.substr(0, extras.size() - 1), ": byte " + std::to_string(extras.size() - 8) + ": ",
+           "face 3: the list uv announces 1 values, 0 at most are left");
     refuseTruncations(kOff.substr(0, kOff.size() - 1), detail::readOff);
     refuseTruncations(stlBinary(), detail::readStl);
     refuseTruncations(kStlText.substr(0, kStlText.rfind("endsolid") + 8), detail::readStl);

@@ -110,6 +110,8 @@ TEST_F(MeshReader, PlyText) {
 TEST_F(MeshReader, PlyBinaryOfBothByteOrders) {
     expectTetrahedron(read("little.ply", plyBinary(true)));
     expectTetrahedron(read("big.ply", plyBinary(false)));
+    expectTetrahedron(read("little.ply", plyBinaryWithExtras(true)));
+    expectTetrahedron(read("big.ply", plyBinaryWithExtras(false)));
 }
 
 TEST_F(MeshReader, PlyWithExtraElementsListsAndTypes) {
