@@ -113,7 +113,7 @@ std::vector<HeartLumen> heartLumens() {
             {"left atrium", Point(4, 10, -31) - kCentre},
             {"right atrium", Point(-34, 2, -4) - kCentre},
             {"aorta", Point(-11, 34, 5) - kCentre},
-            {"pulmonary trunk", Point(15, 24, 15) - kCentre}};
+            {"pulmonary trunk", Point(16, 30, 9) - kCentre}};
 }
 
 HeartSection heartFourChamberSection() {

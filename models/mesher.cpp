@@ -17,6 +17,12 @@ Result<sim::TriangleMesh> meshShape(const MeshSource& source, std::size_t faces)
     const Point extent = source.highest - source.lowest;
     const double coarsest = std::min(0.95 * source.thinnest, std::max({extent.x, extent.y, extent.z}) / 30);
     double cell = coarsest;
+    const auto tooMany = [&] {
+        return Error{"a phantom of " + std::to_string(faces) +
+                     " faces needs more memory than is sensible; ask for fewer faces"};
+    };
+    if (latticePoints(source, cell) > kMostPoints)
+        return tooMany();
     sim::TriangleMesh mesh = marchTetrahedra(source, cell);
     // A coarse lattice misses part of a thin shape, so the first guess may need a second.
     for (int attempt = 0; attempt < 3; ++attempt) {
@@ -25,8 +31,7 @@ Result<sim::TriangleMesh> meshShape(const MeshSource& source, std::size_t faces)
             break;
         cell = std::min(coarsest, cell * std::sqrt(std::max(ratio, 1e-3)));
         if (latticePoints(source, cell) > kMostPoints)
-            return Error{"a phantom of " + std::to_string(faces) +
-                         " faces needs more memory than is sensible; ask for fewer faces"};
+            return tooMany();
         mesh = marchTetrahedra(source, cell);
     }
     mesh = remesh(mesh, source, faces);

@@ -17,10 +17,9 @@ double ellipsoid(const Point& p, const Point& e) {
         const Point r2 = r * r;
         const double f = r2.x + r2.y + r2.z - 1;
         const Point slope = r2 / (e2 + t);
-        const double advance = f / (2 * (slope.x + slope.y + slope.z));
-        t += advance;
-        if (std::abs(advance) < 1e-10 * e2.x)
+        if (f < 1e-13) // not a short step: those are short beside the pole at t = -e^2 too
             break;
+        t += f / (2 * (slope.x + slope.y + slope.z));
     }
     const Point closest = e2 * y / (e2 + t);
     const double distance = glm::length(closest - y);

@@ -1,0 +1,101 @@
+// The list of phantoms, and those with simple shapes.
+#include "mesh_measures.h"
+#include "models/phantom.h"
+#include "models/simple_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace serosa::models {
+namespace {
+
+glm::dvec3 extentOf(const sim::TriangleMesh& mesh) {
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const auto& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return high - low;
+}
+
+TEST(Phantom, UnknownNameGetsASuggestion) {
+    const auto made = makePhantom("haert", 1000);
+    ASSERT_FALSE(made.ok());
+    EXPECT_NE(made.error().message.find("did you mean \"heart\""), std::string::npos);
+    EXPECT_EQ(made.error().exitCode, exitBadInput);
+    EXPECT_EQ(made.error().message.find('\n'), std::string::npos);
+}
+
+TEST(Phantom, ImpossibleFaceCountsAreRefused) {
+    for (const PhantomInfo& info : phantoms()) {
+        EXPECT_FALSE(makePhantom(info.name, 0).ok()) << info.name;
+        EXPECT_FALSE(makePhantom(info.name, 2000000000).ok()) << info.name;
+    }
+    EXPECT_FALSE(makePhantom("heart", 500).ok());
+    EXPECT_FALSE(makePhantom("ball", 100).ok()) << "20 n^2 is 80 or 180";
+}
+
+TEST(Phantom, SimpleOnesAreSoundAtTheirDefaultCount) {
+    for (const PhantomInfo& info : phantoms()) {
+        if (info.name == "heart")
+            continue; // heart_test.cpp
+        SCOPED_TRACE(info.name);
+        const auto mesh = makePhantom(info.name, info.defaultFaces);
+        ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+        EXPECT_GE(mesh->faces.size(), info.defaultFaces);
+        EXPECT_LE(static_cast<double>(mesh->faces.size()), 1.05 * static_cast<double>(info.defaultFaces));
+        EXPECT_EQ(mesh->colours.size(), mesh->positions.size());
+        EXPECT_EQ(test::manifoldFault(*mesh), "");
+        EXPECT_EQ(test::contacts(*mesh), 0u);
+        EXPECT_GT(test::leastAngle(*mesh), 20.0);
+        const auto shells = test::shellsOf(*mesh);
+        ASSERT_EQ(shells.size(), 1u);
+        EXPECT_GT(shells[0].volume, 0);
+        EXPECT_EQ(shells[0].genus, 0);
+        const auto again = makePhantom(info.name, info.defaultFaces);
+        EXPECT_EQ(std::memcmp(again->positions.data(), mesh->positions.data(),
+                              mesh->positions.size() * sizeof(mesh->positions[0])),
+                  0);
+    }
+}
+
+TEST(Phantom, DragonFillsTwoByTwoByOneCells) {
+    const auto mesh = makePhantom("dragon", 10000);
+    ASSERT_TRUE(mesh.ok());
+    const glm::dvec3 extent = extentOf(*mesh);
+    const glm::dvec3 most(120, 120, 60);
+    for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(extent[axis], most[axis]);
+        EXPECT_GE(extent[axis], 0.85 * most[axis]);
+    }
+    // Every cell of a 2 x 2 x 1 lattice about the origin holds some of it.
+    bool held[2][2] = {};
+    for (const auto& p : mesh->positions)
+        held[p.x > 0][p.y > 0] = true;
+    EXPECT_TRUE(held[0][0] && held[0][1] && held[1][0] && held[1][1]);
+}
+
+TEST(Phantom, BeamIsABox) {
+    for (const std::size_t faces : {400u, 3600u, 20000u}) {
+        const auto mesh = makePhantom("beam", faces);
+        ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+        EXPECT_EQ(extentOf(*mesh), glm::dvec3(30, 30, 120));
+        EXPECT_NEAR(test::volumeOf(*mesh), 30.0 * 30 * 120, 1e-6);
+        EXPECT_EQ(test::manifoldFault(*mesh), "");
+        EXPECT_GE(mesh->faces.size(), faces);
+        EXPECT_LE(static_cast<double>(mesh->faces.size()), 1.05 * static_cast<double>(faces));
+    }
+}
+
+TEST(Phantom, BallIsRound) {
+    const auto mesh = makePhantom("ball", 5120);
+    ASSERT_TRUE(mesh.ok());
+    for (const auto& p : mesh->positions)
+        EXPECT_NEAR(glm::length(p), kBallRadius, 1e-12);
+    const double ball = 4.0 / 3.0 * glm::radians(180.0) * 64000;
+    EXPECT_NEAR(test::volumeOf(*mesh), ball, 0.003 * ball);
+}
+
+} // namespace
+} // namespace serosa::models
