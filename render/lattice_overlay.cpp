@@ -47,33 +47,22 @@ Result<LatticeOverlay> LatticeOverlay::create(const sim::Lattice& lattice, const
         return layout.texelOfNode[node].y << 16 | layout.texelOfNode[node].x;
     };
     const std::set<Pair> outer = springsOfBoundary(lattice);
-    std::vector<glm::uvec2> springs, inner;
+    std::vector<glm::uvec2> springs, nodes;
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         for (int d = 0; d < int(sim::kNeighbourOffsets.size()); d += 2) { // one of each pair of opposites
             const std::int64_t other = lattice.neighbour(node, d);
-            if (other < 0)
-                continue;
-            const bool onBoundary = outer.contains(ordered(std::uint32_t(node), std::uint32_t(other)));
-            (onBoundary ? springs : inner)
-                .emplace_back(texel(node) | (d >= kFirstDiagonal ? kDiagonalBit : 0U),
-                              texel(std::size_t(other)));
+            if (other >= 0 && outer.contains(ordered(std::uint32_t(node), std::uint32_t(other))))
+                springs.emplace_back(texel(node) | (d >= kFirstDiagonal ? kDiagonalBit : 0U),
+                                     texel(std::size_t(other)));
         }
-    overlay.boundarySprings_ = int(springs.size());
-    springs.insert(springs.end(), inner.begin(), inner.end());
-    overlay.springs_ = int(springs.size());
-
     std::vector<bool> isOuter(lattice.nodeCount(), false);
     for (const glm::uvec3& t : lattice.boundary)
         for (int i = 0; i < 3; ++i)
             isOuter[t[i]] = true;
-    std::vector<glm::uvec2> nodes;
-    for (const bool wanted : {true, false}) {
-        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
-            if (isOuter[node] == wanted)
-                nodes.emplace_back(texel(node), texel(node));
-        if (wanted)
-            overlay.boundaryNodes_ = int(nodes.size());
-    }
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        if (isOuter[node])
+            nodes.emplace_back(texel(node), texel(node));
+    overlay.springs_ = int(springs.size());
     overlay.nodes_ = int(nodes.size());
 
     const auto fill = [](gpu::VertexArray& array, gpu::Buffer& buffer, const std::string& label,
@@ -88,27 +77,26 @@ Result<LatticeOverlay> LatticeOverlay::create(const sim::Lattice& lattice, const
     return overlay;
 }
 
-void LatticeOverlay::draw(const sim::StateTextures& state, const Frame& frame, Extent extent, Ink ink) {
-    const bool all = extent == Extent::everything;
+void LatticeOverlay::draw(const sim::StateTextures& state, const Frame& frame, Ink ink) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glDisable(GL_CULL_FACE);
     const float scale = std::max(1.0F, frame.size.y / 960);
-    const glm::vec4 light(0.80F, 0.82F, 0.78F, 0.9F), dark(0.012F, 0.014F, 0.018F, 0.85F);
+    const glm::vec4 light(0.80F, 0.82F, 0.78F, 0.6F), dark(0.012F, 0.014F, 0.018F, 0.85F);
     program_.texture("t_positions", state.positions());
     program_.set("u_clipFromLattice", frame.clipFromLattice)
         .set("u_eye", frame.eye)
         .set("u_size", frame.size);
     program_.set("u_colour", ink == Ink::light ? light : dark);
-    program_.set("u_lift", 0.06F).set("u_width", 1.1F * scale).set("u_diagonal", all ? 0.25F : 0.3F);
+    program_.set("u_lift", 0.06F).set("u_width", 1.1F * scale).set("u_diagonal", 0.3F);
     program_.use();
     glBindVertexArray(springArray_.id());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, all ? springs_ : boundarySprings_);
-    program_.set("u_lift", 0.09F).set("u_width", 2.6F * scale);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, springs_);
+    program_.set("u_lift", 0.09F).set("u_width", 3.6F * scale);
     program_.set("u_colour", ink == Ink::light ? glm::vec4(1.0F, 0.86F, 0.45F, 1.0F) : dark);
     program_.use();
     glBindVertexArray(nodeArray_.id());
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, all ? nodes_ : boundaryNodes_);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, nodes_);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
 }

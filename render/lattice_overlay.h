@@ -11,15 +11,13 @@ namespace serosa::render {
 
 class LatticeOverlay {
 public:
-    /// Springs with a connection bit, those of the lattice's boundary faces first.
+    /// Springs with a connection bit that lie in boundary faces, and the nodes of those.
     static Result<LatticeOverlay> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
 
-    enum class Extent { boundary, everything };
     enum class Ink { light, dark }; // dark: over the colours of normals
     /// Draws into the bound target with its depth test; leaves blending off.
-    void draw(const sim::StateTextures& state, const Frame& frame, Extent extent, Ink ink);
+    void draw(const sim::StateTextures& state, const Frame& frame, Ink ink);
 
-    std::size_t boundarySprings() const { return std::size_t(boundarySprings_); }
     std::size_t springs() const { return std::size_t(springs_); }
 
 private:
@@ -27,7 +25,7 @@ private:
     gpu::Program program_;
     gpu::VertexArray springArray_, nodeArray_;
     gpu::Buffer springBuffer_, nodeBuffer_;
-    int boundarySprings_ = 0, springs_ = 0, boundaryNodes_ = 0, nodes_ = 0;
+    int springs_ = 0, nodes_ = 0;
 };
 
 } // namespace serosa::render

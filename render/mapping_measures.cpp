@@ -1,6 +1,7 @@
 #include "render/mapping_measures.h"
 
 #include "render/triangle_basis.h"
+#include "render/triangle_choice.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
 
@@ -45,12 +46,16 @@ double largestExtent(const sim::TriangleMesh& mesh) {
     return std::max({extent.x, extent.y, extent.z});
 }
 
+/// NaN wins and stays: it must never pass for small.
+void grow(double& largest, double value) {
+    if (std::isnan(value) || value > largest)
+        largest = value;
+}
+
 double largestDistance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const double d = glm::distance(a[i], b[i]);
-        largest = d <= largest ? largest : d; // a NaN stays
-    }
+    for (std::size_t i = 0; i < a.size(); ++i)
+        grow(largest, glm::distance(a[i], b[i]));
     return largest;
 }
 
@@ -140,21 +145,18 @@ Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::Tri
         for (std::size_t v = 0; v < rest.size(); ++v) {
             const double distance = glm::distance(mapped[v], motion(rest[v]));
             const double offset = std::max(double(glm::length(binding.vertices[v].offset)), 1e-9);
-            errors.rigid = distance / size <= errors.rigid ? errors.rigid : distance / size;
-            errors.rigidBeyond = std::max(errors.rigidBeyond, (distance - kFree * size) / offset);
-            errors.normal = std::max(
-                errors.normal,
-                2 * std::asin(std::min(1.0, 0.5 * glm::distance(turned[v], motion.turn * restNormals[v]))));
+            grow(errors.rigid, distance / size);
+            grow(errors.rigidBeyond, (distance - kFree * size) / offset);
+            const double chord = glm::distance(turned[v], motion.turn * restNormals[v]);
+            grow(errors.normal, 2 * std::asin(std::min(1.0, 0.5 * chord)));
         }
-        errors.twin = std::max(
-            errors.twin, largestDistance(mapped, mapSurface(binding, rounded(state), state.normals)) / size);
+        grow(errors.twin, largestDistance(mapped, mapSurface(binding, rounded(state), state.normals)) / size);
     }
     const sim::LatticeState bent = deformedState(
         lattice, [&](const glm::dvec3& q) { return bend(q, glm::dvec3(0), 2 * size); }, normals);
     stage.upload(bent);
-    errors.twin =
-        std::max(errors.twin,
-                 largestDistance(stage.positions(), mapSurface(binding, rounded(bent), bent.normals)) / size);
+    grow(errors.twin,
+         largestDistance(stage.positions(), mapSurface(binding, rounded(bent), bent.normals)) / size);
 
     // Without offsets the vertex stage gives the reference points.
     SurfaceBinding bare = binding;
@@ -174,11 +176,8 @@ Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::Tri
 Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormals normals) {
     constexpr std::uint8_t kFull = 255;
     constexpr double kRadius = 3; // spacings
-    std::vector<sim::LatticeCell> cells;
-    for (int y = 0; y < 2; ++y)
-        for (int x = 0; x < 2; ++x)
-            cells.push_back({{x, y, 0}, kFull});
-    const sim::Lattice lattice = sim::latticeFromCells(cells, 1.0, glm::dvec3(0));
+    const sim::Lattice lattice = sim::latticeFromCells(
+        {{{0, 0, 0}, kFull}, {{1, 0, 0}, kFull}, {{0, 1, 0}, kFull}, {{1, 1, 0}, kFull}}, 1.0, glm::dvec3(0));
 
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> sharing;
     for (std::uint32_t t = 0; t < lattice.boundary.size(); ++t)
@@ -202,7 +201,9 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
         const glm::dvec3 up = glm::normalize(normalOf(triangles.at(0)) + normalOf(triangles.at(1)));
         for (const std::uint32_t t : {triangles[0], triangles[1]}) {
             VertexBinding vertex{};
-            vertex.nodes = lattice.boundary[t];
+            const int first = diagonalStart(lattice, lattice.boundary[t]);
+            for (int i = 0; i < 3; ++i)
+                vertex.nodes[i] = lattice.boundary[t][(first + i) % 3];
             // 1/2 is not a multiple of 1/65535; the remainder lies on the third node, along the same edge or
             // to its corner
             for (int i = 0; i < 3; ++i)
@@ -229,7 +230,7 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
     gaps.edges = sharing.size();
     for (std::size_t e = 0; e < gaps.edges; ++e) {
         const double gap = glm::distance(mapped[2 * e], mapped[2 * e + 1]);
-        gaps.largest = gap <= gaps.largest ? gaps.largest : gap;
+        grow(gaps.largest, gap);
         gaps.rms += gap * gap / double(gaps.edges);
     }
     gaps.rms = std::sqrt(gaps.rms);

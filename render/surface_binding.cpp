@@ -98,9 +98,13 @@ SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh&
     binding.vertices.resize(positions.size());
     for (std::size_t v = 0; v < positions.size(); ++v) {
         VertexBinding& bound = binding.vertices[v];
-        bound.nodes = lattice.boundary[choice.triangles[v]];
-        bound.weights.x = float(std::round(choice.weights[v].x * kWeightSteps) / kWeightSteps);
-        bound.weights.y = float(std::round(choice.weights[v].y * kWeightSteps) / kWeightSteps);
+        const glm::uvec3& nodes = lattice.boundary[choice.triangles[v]];
+        const int first = diagonalStart(lattice, nodes);
+        for (int i = 0; i < 3; ++i) {
+            bound.nodes[i] = nodes[(first + i) % 3];
+            const double weight = choice.weights[v][(first + i) % 3];
+            bound.weights[i] = float(std::round(weight * kWeightSteps) / kWeightSteps);
+        }
         bound.weights.z = float(exactWeights(bound.weights).z);
     }
     binding.triangles = std::move(choice.triangles);

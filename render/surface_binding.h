@@ -16,7 +16,7 @@
 namespace serosa::render {
 
 struct VertexBinding {
-    glm::uvec3 nodes;    // indices into the lattice's nodes
+    glm::uvec3 nodes;    // indices into the lattice's nodes; the first edge is the triangle's diagonal
     glm::vec3 weights;   // of eq. 4, sum 1; the first two are multiples of 1/65535 (16 bits on the GPU)
     glm::vec3 offset;    // lattice units, in the basis (T, N, B) of `basis`
     glm::vec3 normal;    // unit rest normal in that basis

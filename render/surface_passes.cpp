@@ -14,7 +14,7 @@ namespace {
 
 using sim::SurfaceColour;
 
-constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB, where the mesh has no colours
+constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB of kFleshColour, where the mesh has no colours
 
 /// Square root of the linear value: the vertex stage squares it, and 8 bits suffice in the dark.
 std::uint8_t rootOfLinear(std::uint8_t srgb) {
@@ -150,13 +150,13 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
 }
 
 gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
-                                     SurfaceColour colour) {
+                                     SurfaceColour colour, const glm::vec3& bare) {
     gpu::Program& program = programs_.at({stage, colour});
     program.set("u_clipFromLattice", frame.clipFromLattice);
     if (stage != SurfaceStage::undeformed)
         program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::nodes)
-        program.set("u_colour", glm::vec4(vertexColour(kFlesh, 1)) / 255.0F);
+        program.set("u_colour", glm::vec4(glm::sqrt(bare), 1));
     frame.setLight(program);
     std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
     for (std::size_t i = 0; i < tools.size() && i < frame.tools.size(); ++i)
@@ -172,13 +172,13 @@ void SurfacePasses::drawTriangles(SurfaceStage stage) {
 }
 
 void SurfacePasses::draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
-                         SurfaceColour colour) {
-    prepare(state, frame, stage, colour).use();
+                         SurfaceColour colour, const glm::vec3& bare) {
+    prepare(state, frame, stage, colour, bare).use();
     drawTriangles(stage);
 }
 
 void SurfacePasses::drawDiscarded(const sim::StateTextures& state, SurfaceStage stage) {
-    prepare(state, Frame{}, stage, SurfaceColour::tissue).use();
+    prepare(state, Frame{}, stage, SurfaceColour::tissue, kFleshColour).use();
     glEnable(GL_RASTERIZER_DISCARD);
     drawTriangles(stage);
     glDisable(GL_RASTERIZER_DISCARD);

@@ -14,14 +14,18 @@ namespace serosa::render {
 
 enum class SurfaceStage { undeformed, constant, corrected, nodes };
 
+inline constexpr glm::vec3 kFleshColour{0.342F, 0.048F, 0.037F}; // linear
+inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behind the lattice's lines
+
 class SurfacePasses {
 public:
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                         const SurfaceBinding& binding, const sim::TextureLayout& layout);
 
     /// Draws into the bound target with its depth test.
+    /// \param bare linear colour of a boundary that has none of its own (stage nodes).
     void draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
-              sim::SurfaceColour colour);
+              sim::SurfaceColour colour, const glm::vec3& bare = kFleshColour);
     /// The same vertex stage with nothing rasterized.
     void drawDiscarded(const sim::StateTextures& state, SurfaceStage stage);
 
@@ -41,7 +45,7 @@ private:
     void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                         const SurfaceBinding& binding, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
-                          sim::SurfaceColour colour);
+                          sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage);
 
     std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program> programs_;

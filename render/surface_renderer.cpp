@@ -69,14 +69,15 @@ void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
     in.backdrop.use();
     gpu::drawFullScreen(in.empty);
     glEnable(GL_DEPTH_TEST);
+    const bool core = view.look.lattice && !view.look.surface; // hides the lines on the far side
+    if (core)
+        in.surface.draw(state, frame, SurfaceStage::nodes, sim::SurfaceColour::tissue, kCoreColour);
     if (view.look.surface)
         in.surface.draw(state, frame, stageOf(view.look.mapping), view.look.colour);
     in.tools.draw(frame);
     if (view.look.lattice)
         in.lattice.draw(state, frame,
-                        view.look.surface ? LatticeOverlay::Extent::boundary
-                                          : LatticeOverlay::Extent::everything,
-                        view.look.surface && view.look.colour == sim::SurfaceColour::dynamicNormal
+                        !core && view.look.colour == sim::SurfaceColour::dynamicNormal
                             ? LatticeOverlay::Ink::dark
                             : LatticeOverlay::Ink::light);
     in.target.end();

@@ -269,6 +269,19 @@ std::vector<glm::dvec3> smoothed(const std::vector<glm::uvec3>& faces,
 
 } // namespace
 
+int diagonalStart(const sim::Lattice& lattice, const glm::uvec3& nodes) {
+    int start = 0, longest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const glm::ivec3 edge = lattice.nodes[nodes[(i + 1) % 3]] - lattice.nodes[nodes[i]];
+        const int length2 = edge.x * edge.x + edge.y * edge.y + edge.z * edge.z;
+        if (length2 > longest) {
+            longest = length2;
+            start = i;
+        }
+    }
+    return start;
+}
+
 void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
                      const std::vector<glm::dvec3>& positions, TriangleChoice& choice) {
     const std::vector<std::uint32_t> before = choice.triangles;

@@ -13,9 +13,15 @@
 
 namespace serosa::render {
 
+/// The corner that begins the longest edge of a boundary triangle (nodes of lattice.boundary): the diagonal
+/// of its face. Bound from there, T of eq. 6 is the same line for both halves of a face, and tangential
+/// offsets agree across it: on figure 6's bend that closes a third of the gaps that the corrected basis
+/// leaves.
+int diagonalStart(const sim::Lattice& lattice, const glm::uvec3& nodes);
+
 struct TriangleChoice {
     std::vector<std::uint32_t> triangles; // into lattice.boundary, one a vertex
-    std::vector<glm::dvec3> weights;      // of the reference point, eq. 4
+    std::vector<glm::dvec3> weights;      // of the reference point, eq. 4, in the order of lattice.boundary
     std::size_t tornEdgesFound = 0, tornEdgesLeft = 0;
 };
 

@@ -25,7 +25,7 @@ vec3 studio(vec3 direction, float blur) {
     vec3 light = surround(direction) * 0.75;
     float soft = 0.02 + 0.2 * blur;
     light += kKeyColour * (5.0 * u_key * smoothstep(0.93 - soft, 0.95 + soft, dot(direction, u_toKey)));
-    light += kBackColour * (1.6 * u_key * smoothstep(0.80 - soft, 0.86 + soft, dot(direction, u_toBack)));
+    light += kBackColour * (1.1 * u_key * smoothstep(0.80 - soft, 0.86 + soft, dot(direction, u_toBack)));
     return light;
 }
 

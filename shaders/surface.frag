@@ -54,11 +54,14 @@ void main() {
     vec3 colour = albedo * (kKeyColour * key * (1.75 * u_key) + surround(n) * 0.75 * occluded +
                             kBackColour * (0.35 * u_key * back));
 
+#ifndef SURFACE_NODES // eq. 3 on the lattice's steps is too rough to shine
     // The tissue's own rough lobe, then the film: what a sharp mirror sees, by Fresnel.
     vec3 h = normalize(v + u_toKey);
     float ndh = max(dot(n, h), 0.0), ldh = max(dot(u_toKey, h), 0.0);
     colour += kKeyColour * (0.09 * max(ndl, 0.0) * shade.y * u_key * ggx(0.13, ndh, ldh) * v_colour.a);
     colour += studio(reflect(-v, n), 0.1) * (fresnel(0.028, ndv) * open * open * mix(0.45, 1.0, shade.y));
-    o_colour = vec4(toneMap(colour), 1.0);
+#endif
+    float grey = dot(colour, vec3(0.2126, 0.7152, 0.0722)); // blood's pure red is paler in bright light
+    o_colour = vec4(toneMap(mix(colour, vec3(grey), 0.06 + 0.1 * clamp(grey, 0.0, 1.0))), 1.0);
 #endif
 }

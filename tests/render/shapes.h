@@ -47,11 +47,9 @@ inline sim::TriangleMesh ballMesh(int n, double radius, const glm::dvec3& centre
 
 /// Full cells of a box of nx x ny x nz cells.
 inline sim::Lattice boxLattice(int nx, int ny, int nz, double spacing, const glm::dvec3& origin) {
-    std::vector<sim::LatticeCell> cells;
-    for (int z = 0; z < nz; ++z)
-        for (int y = 0; y < ny; ++y)
-            for (int x = 0; x < nx; ++x)
-                cells.push_back({{x, y, z}, 255});
+    std::vector<sim::LatticeCell> cells(std::size_t(nx * ny * nz));
+    for (int i = 0; i < nx * ny * nz; ++i)
+        cells[std::size_t(i)] = {{i % nx, i / nx % ny, i / (nx * ny)}, 255};
     return sim::latticeFromCells(cells, spacing, origin);
 }
 

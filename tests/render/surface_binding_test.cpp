@@ -57,7 +57,13 @@ TEST(SurfaceBinding, WeightsAreOfTheClosestKindAndSumToOne) {
     ASSERT_EQ(bound.binding.triangles.size(), bound.mesh.positions.size());
     for (std::size_t v = 0; v < bound.binding.vertices.size(); ++v) {
         const VertexBinding& vertex = bound.binding.vertices[v];
-        EXPECT_EQ(vertex.nodes, bound.lattice.boundary[bound.binding.triangles[v]]);
+        const glm::uvec3& triangle = bound.lattice.boundary[bound.binding.triangles[v]];
+        const int first = diagonalStart(bound.lattice, triangle);
+        EXPECT_EQ(vertex.nodes,
+                  glm::uvec3(triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]));
+        EXPECT_NEAR(glm::distance(bound.lattice.restPosition(vertex.nodes.x),
+                                  bound.lattice.restPosition(vertex.nodes.y)),
+                    std::sqrt(2), 1e-12);
         EXPECT_NEAR(vertex.weights.x + vertex.weights.y + vertex.weights.z, 1, 1e-6);
         EXPECT_GE(std::min({vertex.weights.x, vertex.weights.y, vertex.weights.z}), -2e-5);
         EXPECT_LE(glm::length(vertex.offset), 2.0); // the ball touches every cell under its boundary
