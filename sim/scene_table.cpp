@@ -4,6 +4,7 @@
 
 #include "sim/suggest.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -45,6 +46,16 @@ std::string formatted(const SceneKey& key, const std::vector<double>& values) {
     for (std::size_t i = 0; i < values.size(); ++i)
         text += (i ? ", " : "") + formatted(key, values[i]);
     return text + "]";
+}
+
+/// toml++ writes 'x' and [ 1, 2 ]; scenes and this program write "x" and [1, 2].
+std::string plainToml(std::string text) {
+    std::replace(text.begin(), text.end(), '\'', '"');
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    for (const auto& [from, to] : {std::pair{"[ ", "["}, std::pair{" ]", "]"}})
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from))
+            text.replace(at, 2, to);
+    return text;
 }
 
 std::vector<double> asList(const glm::dvec3& v) {
@@ -167,7 +178,7 @@ void SceneTable::note(const char* key, const std::string& value) const {
     if (const toml::node* given = node(key)) {
         std::ostringstream text;
         given->visit([&text](const auto& n) { text << toml::toml_formatter{toml::table{{"v", n}}}; });
-        written = text.str().substr(4); // after "v = "
+        written = plainToml(text.str().substr(4)); // after "v = "
     }
     source_.explained->push_back({pathOf(key), written, value, lineOf(key)});
 }
