@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRange = 0.15;        // of the largest extent
 constexpr double kLift = 0.002;        // of the largest extent, off the surface
-constexpr std::size_t kRays = 600'000; // in all
+constexpr std::size_t kRays = 400'000; // in all
 constexpr std::size_t kMostRays = 32, kFewestRays = 4;
 constexpr int kSmoothings = 2;
 

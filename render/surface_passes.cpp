@@ -5,6 +5,7 @@
 #include "render/baked_occlusion.h"
 #include "render/surface_vertices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -162,6 +163,7 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
     for (std::size_t i = 0; i < tools.size() && i < frame.tools.size(); ++i)
         tools[i] = frame.tools[i];
     program.set("u_tools", std::span<const glm::vec4>(tools));
+    program.set("u_toolCount", int(std::min(tools.size(), frame.tools.size())));
     return program;
 }
 

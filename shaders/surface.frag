@@ -10,17 +10,16 @@ in vec3 v_normal;
 in vec3 v_dynamicNormal;
 in vec4 v_colour;
 
-uniform vec4 u_tools[SRS_MAX_TOOLS]; // centre, radius in lattice units; radius 0: none
+uniform vec4 u_tools[SRS_MAX_TOOLS]; // centre, radius in lattice units
+uniform int u_toolCount;
 
 out vec4 o_colour;
 
 /// Light that tools leave: x of the surround, y of the key lamp.
 vec2 toolShade(vec3 position, vec3 n) {
     vec2 light = vec2(1.0);
-    for (int i = 0; i < SRS_MAX_TOOLS; ++i) {
+    for (int i = 0; i < u_toolCount; ++i) {
         float radius = u_tools[i].w;
-        if (radius <= 0.0)
-            continue;
         vec3 to = u_tools[i].xyz - position;
         float distance2 = max(dot(to, to), radius * radius), distance = sqrt(distance2);
         light.x *= 1.0 - max(dot(n, to) / distance, 0.0) * radius * radius / distance2;
