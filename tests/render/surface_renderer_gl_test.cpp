@@ -22,7 +22,7 @@ protected:
             return;
         lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
         centre_ = lattice_.toWorld(glm::dvec3(6 - lattice_.centre));
-        mesh_ = test::ballMesh(40, kRadius, centre_);
+        mesh_ = test::ballMesh(24, kRadius, centre_);
         auto state = sim::StateTextures::create(lattice_, {});
         ASSERT_TRUE(state.ok());
         state_.emplace(std::move(state).value());
