@@ -24,6 +24,7 @@ struct Frame {
     glm::vec3 toKey{0, 1, 0}, toBack{0, 1, 0};
     float key = 1, ambient = 1;
     std::vector<glm::vec4> tools; // lattice units
+    glm::vec4 section{0}; // plane, lattice units: the surface is drawn where it is positive; 0: all is
 
     void setLight(gpu::Program& program) const {
         program.set("u_toKey", toKey).set("u_toBack", toBack).set("u_key", key);
@@ -33,7 +34,7 @@ struct Frame {
 
 /// Products are formed in double: an organ may lie metres from the origin and be drawn to micrometres.
 inline Frame makeFrame(const sim::Lattice& lattice, const CameraView& camera, const sim::Light& light,
-                       const Spheres& tools, int width, int height) {
+                       const sim::Look& look, const Spheres& tools, int width, int height) {
     glm::dmat4 worldFromLattice(lattice.spacing);
     worldFromLattice[3] = glm::dvec4(lattice.origin, 1);
     const glm::dmat4 latticeAxes =
@@ -50,6 +51,11 @@ inline Frame makeFrame(const sim::Lattice& lattice, const CameraView& camera, co
         glm::vec3(glm::normalize(-0.75 * right + 0.45 * up - 0.55 * back)); // left, above, behind the organ
     frame.key = float(light.intensity);
     frame.ambient = float(light.ambient);
+    if (look.sectionAt) {
+        const glm::dvec3 kept = -glm::normalize(look.sectionNormal);
+        frame.section =
+            glm::vec4(glm::vec3(kept), float(-glm::dot(kept, lattice.toLattice(*look.sectionAt))));
+    }
     for (const auto& [centre, radius] : tools)
         frame.tools.emplace_back(lattice.toLattice(centre), radius / lattice.spacing);
     return frame;

@@ -154,6 +154,7 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
                                      SurfaceColour colour, const glm::vec3& bare) {
     gpu::Program& program = programs_.at({stage, colour});
     program.set("u_clipFromLattice", frame.clipFromLattice);
+    program.set("u_section", frame.section);
     if (stage != SurfaceStage::undeformed)
         program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::nodes)
@@ -176,7 +177,16 @@ void SurfacePasses::drawTriangles(SurfaceStage stage) {
 void SurfacePasses::draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                          SurfaceColour colour, const glm::vec3& bare) {
     prepare(state, frame, stage, colour, bare).use();
+    const bool sectioned = frame.section != glm::vec4(0);
+    if (sectioned) {
+        glEnable(GL_CLIP_DISTANCE0);
+        glDisable(GL_CULL_FACE); // inner sides show as cut tissue
+    }
     drawTriangles(stage);
+    if (sectioned) {
+        glEnable(GL_CULL_FACE);
+        glDisable(GL_CLIP_DISTANCE0);
+    }
 }
 
 void SurfacePasses::drawDiscarded(const sim::StateTextures& state, SurfaceStage stage) {
@@ -190,6 +200,7 @@ SurfacePasses::Captured SurfacePasses::capture(const sim::StateTextures& state, 
     SEROSA_CHECK(stage != SurfaceStage::nodes, "node positions are in the state texture already");
     gpu::Program& program = captures_.at(stage);
     program.set("u_clipFromLattice", glm::mat4(1));
+    program.set("u_section", glm::vec4(0));
     if (stage != SurfaceStage::undeformed)
         program.texture("t_positions", state.positions());
     struct Item {

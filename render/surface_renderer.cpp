@@ -61,8 +61,8 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
 void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
     Impl& in = *impl_;
     const Spheres tools = view.look.tools ? view.toolSpheres : Spheres{};
-    const Frame frame =
-        makeFrame(in.placement, view.camera, view.light, tools, in.target.width(), in.target.height());
+    const Frame frame = makeFrame(in.placement, view.camera, view.light, view.look, tools, in.target.width(),
+                                  in.target.height());
     in.target.begin();
     glDisable(GL_DEPTH_TEST);
     in.backdrop.set("u_size", frame.size);

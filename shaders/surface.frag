@@ -12,8 +12,11 @@ in vec4 v_colour;
 
 uniform vec4 u_tools[SRS_MAX_TOOLS]; // centre, radius in lattice units
 uniform int u_toolCount;
+uniform vec4 u_section; // plane, lattice units; 0: none
 
 out vec4 o_colour;
+
+const vec3 kCutColour = vec3(0.42, 0.085, 0.07); // flesh, evenly lit: one plane
 
 /// Light that tools leave: x of the surround, y of the key lamp.
 vec2 toolShade(vec3 position, vec3 n) {
@@ -31,6 +34,11 @@ vec2 toolShade(vec3 position, vec3 n) {
 }
 
 void main() {
+    // The surface is closed: where its inner side shows through a section, solid tissue has been cut.
+    if (!gl_FrontFacing && u_section.xyz != vec3(0.0)) {
+        o_colour = vec4(kCutColour, 1.0);
+        return;
+    }
     vec3 n = normalize(v_normal), v = toEye(v_position);
     float away = dot(n, v);
     if (away < 0.02) // interpolation turns normals at the silhouette a little away from the eye

@@ -20,6 +20,7 @@ layout(location = 4) in vec4 a_colour;  // square root of the linear colour; amb
 #endif
 
 uniform mat4 u_clipFromLattice;
+uniform vec4 u_section; // plane, lattice units: drawn where it is positive, if GL_CLIP_DISTANCE0 is on
 
 out vec3 v_position;      // lattice units
 out vec3 v_normal;        // of the surface
@@ -47,5 +48,6 @@ void main() {
     v_colour = a_colour;
 #endif
     v_colour.rgb *= v_colour.rgb;
+    gl_ClipDistance[0] = dot(u_section, vec4(v_position, 1.0));
     gl_Position = u_clipFromLattice * vec4(v_position, 1.0);
 }

@@ -72,6 +72,8 @@ struct Look {
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn
+    std::optional<glm::dvec3> sectionAt;                // m; what lies beyond it, to where
+    glm::dvec3 sectionNormal{0, 0, 1};                  // this points, is cut away from the picture
 };
 
 struct Output {

@@ -123,6 +123,11 @@ std::vector<SceneKey> makeKeys() {
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw the tools"),
+        quantity("look", "section_at", Dim::length, kAny, "",
+                 "a point of a plane that shows the inside: the surface beyond it is not drawn",
+                 Kind::quantity3),
+        plain("look", "section_normal", Kind::number3, kAny, "[0, 0, 1]",
+              "points from the plane to what is not drawn"),
 
         plain("output", "size", Kind::integer2, {16, 16384}, "[960, 960]",
               "width and height of pictures in pixels"),

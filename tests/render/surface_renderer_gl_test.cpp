@@ -128,6 +128,23 @@ TEST_F(GlSurfaceRenderer, SameStateGivesTheSameBytes) {
         EXPECT_LT(corner, 60); // the backdrop is dark
 }
 
+TEST_F(GlSurfaceRenderer, SectionShowsEvenCutTissueAndKeepsTheRest) {
+    view_.look.sectionAt = centre_;
+    const Image half = draw(); // the near half is gone: a disc of cut tissue, all of one colour
+    const glm::ivec3 cut = pixel(half, kSize / 2, kSize / 2);
+    EXPECT_EQ(pixel(half, kSize / 2 + 60, kSize / 2 + 30), cut);
+    view_.look.surface = false;
+    const double expected = std::numbers::pi * kRadius * kRadius / (kHeight * kHeight);
+    EXPECT_NEAR(share(half, draw(), 8), expected, 0.03 * expected);
+    view_.look.surface = true;
+    view_.look.sectionNormal = {1, 0, 0}; // the right half is gone
+    const Image left = draw();
+    view_.look.sectionAt.reset();
+    const Image whole = draw();
+    EXPECT_EQ(pixel(left, kSize / 2 - 30, kSize / 2), pixel(whole, kSize / 2 - 30, kSize / 2));
+    EXPECT_NE(pixel(left, kSize / 2 + 30, kSize / 2), pixel(whole, kSize / 2 + 30, kSize / 2));
+}
+
 TEST_F(GlSurfaceRenderer, OneToOneShowsTheCellsOutline) {
     view_.look.surface = false;
     const Image empty = draw();
