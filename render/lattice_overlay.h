@@ -14,6 +14,10 @@ public:
     /// Springs with a connection bit, those of the lattice's boundary faces first.
     static Result<LatticeOverlay> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
 
+    /// Its program from another source. Errors: as gpu::Program::create.
+    static Result<gpu::Program> compile(const gpu::ShaderLibrary& library);
+    gpu::Program& program() { return program_; }
+
     enum class Extent { boundary, everything };
     enum class Ink { light, dark }; // dark: over the colours of normals
     /// Draws into the bound target with its depth test; leaves blending off.
