@@ -31,6 +31,7 @@ Argument describe(const CLI::Option& option, const std::string& path, std::set<s
     for (const std::string& name : argument.names)
         if (argument.words.empty()) {
             argument.words = commandWords(path, name);
+            unused.erase(name);
             unused.erase(path + " " + name);
         }
     const std::string& value = argument.valueName;

@@ -39,9 +39,9 @@ Result<Command> commandTree(const CLI::App& app);
 /// The command and all below it, parents first.
 std::vector<const Command*> allCommands(const Command& command);
 
-/// Words of one argument, "" where it takes anything. \param argument "--gl" or a positional's name.
+/// Words of one argument, none where it takes anything. \param argument "--gl" or a positional's name.
 std::vector<std::string> commandWords(const std::string& path, const std::string& argument);
-/// "serosa run --gl", ...: all that have words.
+/// "--gl", "serosa phantom name", ...: all that have words.
 std::vector<std::string> argumentsWithWords();
 
 std::string manualPage(const Command& command, const std::string& version);

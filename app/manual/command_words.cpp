@@ -1,5 +1,6 @@
-// The words that options take. The parsers of app/cli.cpp compare strings, so CLI11 does not know them;
-// tests/app/manual_test.cpp holds this list to what the program says about a wrong word.
+// The words that options take, for every command that has such an option; positionals by command. The parsers
+// of app/cli.cpp compare strings, so CLI11 does not know them; tests/app/manual_test.cpp holds this list to
+// what the program says about a wrong word.
 
 #include "app/manual/command_tree.h"
 #include "app/verify.h"
@@ -16,24 +17,20 @@ using Words = std::vector<std::string>;
 
 const std::map<std::string, Words>& table() {
     static const std::map<std::string, Words> kTable = [] {
-        const Words units{"mm", "cm", "m", "um", "in"};
-        const Words contexts{"auto", "egl", "egl-device", "osmesa"};
         Words phantoms, groups;
         for (const models::PhantomInfo& info : models::phantoms())
             phantoms.push_back(info.name);
         for (const VerifyGroup& group : verifyGroups())
             groups.push_back(group.name);
         return std::map<std::string, Words>{
-            {"serosa run --length-unit", units},
-            {"serosa run --mapping", sim::findSceneKey("look", "mapping")->words},
-            {"serosa run --solver", {"fragment", "reference"}},
-            {"serosa run --layout", {"auto", "grid", "rows"}},
-            {"serosa run --gl", contexts},
-            {"serosa inspect --length-unit", units},
+            {"--gl", {"auto", "egl", "egl-device", "osmesa"}},
+            {"--inject", {"stiffness=", "drop-spring", "stale-normal"}},
+            {"--layout", {"auto", "grid", "rows"}},
+            {"--length-unit", {"mm", "cm", "m", "um", "in"}},
+            {"--mapping", sim::findSceneKey("look", "mapping")->words},
+            {"--solver", {"fragment", "reference"}},
             {"serosa phantom name", phantoms},
             {"serosa verify groups", groups},
-            {"serosa verify --inject", {"stiffness=", "drop-spring", "stale-normal"}},
-            {"serosa verify --gl", contexts},
         };
     }();
     return kTable;
@@ -42,7 +39,7 @@ const std::map<std::string, Words>& table() {
 } // namespace
 
 std::vector<std::string> commandWords(const std::string& path, const std::string& argument) {
-    const auto found = table().find(path + " " + argument);
+    const auto found = table().find(argument.front() == '-' ? argument : path + " " + argument);
     return found == table().end() ? Words() : found->second;
 }
 
