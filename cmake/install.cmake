@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 install(TARGETS serosa COMPONENT program)
-install(FILES ${PROJECT_BINARY_DIR}/manual/serosa.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${PROJECT_BINARY_DIR}/manual/serosa.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/manual/serosa.bash RENAME serosa
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install(FILES ${PROJECT_BINARY_DIR}/manual/_serosa
@@ -47,18 +47,18 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME serosa)
-set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "Real-time simulator of soft organs
- A coarse lattice of springs moves, and a detailed surface follows it. This package
- holds the serosa command, which simulates scenes with or without a graphics card.")
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "A coarse lattice of springs moves, and a detailed surface follows it.
+This package holds the serosa command, which simulates scenes with or without
+a graphics card.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # EGL, Mesa's drivers and OSMesa are opened at run time, where dpkg-shlibdeps does not see them.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME serosa-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Real-time simulator of soft organs - libraries
- Static libraries, headers and the CMake package of the serosa simulator:
- lattices, solvers, surface mappings, OpenGL contexts.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "A coarse lattice of springs moves, and a detailed surface follows it.
+This package holds static libraries, headers and a CMake package: lattices,
+solvers, surface mappings, OpenGL contexts.")
 # What cmake/serosaConfig.cmake.in finds.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libegl-dev, libgl-dev, libglfw3-dev, libglm-dev, \
 libmeshoptimizer-dev, libopenmesh-dev, libpng-dev, libspdlog-dev, libtomlplusplus-dev, libxxhash-dev, pkg-config")
