@@ -51,9 +51,9 @@ set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "A coarse lattice of springs moves, and a d
 This package holds the serosa command, which simulates scenes with or without
 a graphics card.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# EGL, Mesa's drivers, GLX (by GLFW, for windows) and OSMesa are opened at run time: dpkg-shlibdeps does not see them.
+# EGL, Mesa's drivers and OSMesa are opened at run time, where dpkg-shlibdeps does not see them (libglfw3 brings GLX).
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libgl1, libosmesa6")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libosmesa6")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME serosa-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "A coarse lattice of springs moves, and a detailed surface follows it.
