@@ -360,14 +360,16 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& problem, in
     return message + " (see '" + commandName(app) + " --help')";
 }
 
-int runChecked(int argc, char** argv) {
-    CLI::App app("Serosa simulates soft organs in real time: a coarse lattice of springs moves, and a "
-                 "detailed surface follows.",
-                 "serosa");
+/// All commands and options. `choice` outlives the tree.
+std::unique_ptr<CLI::App> makeCommandTree(Choice& choice) {
+    auto tree = std::make_unique<CLI::App>(
+        "Serosa simulates soft organs in real time: a coarse lattice of springs moves, and a "
+        "detailed surface follows.",
+        "serosa");
+    CLI::App& app = *tree;
     app.set_version_flag("--version", std::string("serosa ") + programVersion());
     app.require_subcommand(1);
     app.fallthrough();
-    Choice choice;
     app.add_flag("-v,--verbose", choice.verbosity, "log to stderr; -vv says more");
     addRun(app, choice);
     addInspect(app, choice);
@@ -380,6 +382,13 @@ int runChecked(int argc, char** argv) {
                "  serosa run --model heart.ply --length-unit mm\n"
                "'serosa COMMAND --help' says more. Exit codes: 0 ok, 1 a check failed, 2 bad input, 5 no "
                "OpenGL context.");
+    return tree;
+}
+
+int runChecked(int argc, char** argv) {
+    Choice choice;
+    const std::unique_ptr<CLI::App> tree = makeCommandTree(choice);
+    CLI::App& app = *tree;
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
@@ -393,6 +402,11 @@ int runChecked(int argc, char** argv) {
 }
 
 } // namespace
+
+void describeCommandLine(const std::function<void(const CLI::App&)>& describe) {
+    Choice choice;
+    describe(*makeCommandTree(choice));
+}
 
 int runCommandLine(int argc, char** argv) {
     try {

@@ -23,6 +23,8 @@ const char* explanation(gpu::ContextKind kind) {
         return "EGL device, a GPU without a display server";
     case gpu::ContextKind::osmesa:
         return "OSMesa, software";
+    case gpu::ContextKind::window:
+        return "a window of GLFW, which needs a display";
     }
     return "?";
 }

@@ -11,9 +11,13 @@ namespace serosa::gpu {
 
 namespace {
 
-constexpr ContextKind kAllKinds[] = {ContextKind::eglDevice, ContextKind::egl, ContextKind::osmesa};
+constexpr ContextKind kAllKinds[] = {ContextKind::eglDevice, ContextKind::egl, ContextKind::osmesa,
+                                     ContextKind::window};
+/// What automatic tries, in this order.
+constexpr ContextKind kAutomaticKinds[] = {ContextKind::eglDevice, ContextKind::egl, ContextKind::osmesa};
 
-/// Kinds that SEROSA_GL_DISABLE="egl,egl-device,osmesa" switches off (to test what happens without them).
+/// Kinds that SEROSA_GL_DISABLE="egl,egl-device,osmesa,window" switches off (to test what happens without
+/// them).
 Result<std::vector<ContextKind>> disabledKinds() {
     std::vector<ContextKind> kinds;
     const char* value = std::getenv("SEROSA_GL_DISABLE");
@@ -31,7 +35,8 @@ Result<std::vector<ContextKind>> disabledKinds() {
                 known = true;
             }
         if (!known)
-            return Error{"SEROSA_GL_DISABLE: unknown kind \"" + name + "\"; use egl, egl-device, osmesa"};
+            return Error{"SEROSA_GL_DISABLE: unknown kind \"" + name +
+                         "\"; use egl, egl-device, osmesa, window"};
     }
     return kinds;
 }
@@ -50,6 +55,8 @@ const char* contextKindName(ContextKind kind) {
         return "egl-device";
     case ContextKind::osmesa:
         return "osmesa";
+    case ContextKind::window:
+        return "window";
     }
     return "?";
 }
@@ -66,13 +73,17 @@ Result<GlChoice> parseGlChoice(const std::string& text) {
     return Error{"unknown kind of GL context \"" + text + "\": use auto, egl, egl-device or osmesa"};
 }
 
-Attempt tryKind(ContextKind kind, DeviceFilter filter) {
+std::string disabledBecause(ContextKind kind) {
     const auto disabled = disabledKinds();
     if (!disabled.ok())
-        return {nullptr, disabled.error().message, "correct or unset SEROSA_GL_DISABLE"};
-    for (const ContextKind off : disabled.value())
-        if (off == kind)
-            return {nullptr, "switched off by SEROSA_GL_DISABLE", "unset SEROSA_GL_DISABLE"};
+        return disabled.error().message;
+    const bool off = std::find(disabled->begin(), disabled->end(), kind) != disabled->end();
+    return off ? "switched off by SEROSA_GL_DISABLE" : "";
+}
+
+Attempt tryKind(ContextKind kind, DeviceFilter filter) {
+    if (const std::string off = disabledBecause(kind); !off.empty())
+        return {nullptr, off, "correct or unset SEROSA_GL_DISABLE"};
     switch (kind) {
     case ContextKind::egl:
         return tryEglSurfaceless();
@@ -80,6 +91,8 @@ Attempt tryKind(ContextKind kind, DeviceFilter filter) {
         return tryEglDevice(filter);
     case ContextKind::osmesa:
         return tryOsmesa();
+    case ContextKind::window:
+        return tryWindow();
     }
     return {};
 }
@@ -90,7 +103,7 @@ Result<std::unique_ptr<Context>> createContext(GlChoice choice) {
     std::vector<ContextKind> kinds;
     switch (choice) {
     case GlChoice::automatic:
-        kinds.assign(std::begin(kAllKinds), std::end(kAllKinds));
+        kinds.assign(std::begin(kAutomaticKinds), std::end(kAutomaticKinds));
         break;
     case GlChoice::egl:
         kinds = {ContextKind::egl};

@@ -1,8 +1,8 @@
 #pragma once
 // OpenGL 4.5 core contexts behind one interface: surfaceless EGL, an EGL device (a GPU without a display
-// server), OSMesa (software, opened with dlopen(RTLD_LOCAL) and never linked: it exports every gl name). A
-// window context joins later. OSMesa shares its dispatch with Mesa's EGL: makeCurrent releases the current
-// context of any other kind first.
+// server), OSMesa (software, opened with dlopen(RTLD_LOCAL) and never linked: it exports every gl name), and
+// a window (gpu/context_window.h), which is only ever made explicitly. OSMesa shares its dispatch with Mesa's
+// EGL and GLX: makeCurrent releases the current context of any other kind first.
 
 #include "base/result.h"
 
@@ -14,8 +14,8 @@
 
 namespace serosa::gpu {
 
-enum class ContextKind { egl, eglDevice, osmesa };
-/// "egl", "egl-device", "osmesa"
+enum class ContextKind { egl, eglDevice, osmesa, window };
+/// "egl", "egl-device", "osmesa", "window"
 const char* contextKindName(ContextKind kind);
 
 /// What a user asks for (`--gl`): automatic is an EGL device with hardware, EGL surfaceless, then OSMesa;
@@ -48,8 +48,8 @@ protected:
 
 /// Creates a context (core profile, 4.5 or later, debug output on) and makes it current.
 /// Errors (exit code 5): says for each kind that was tried what failed, and what to install or set. The
-/// environment variable SEROSA_GL_DISABLE="egl,egl-device,osmesa" (any of them) makes kinds unavailable, to
-/// test what happens then.
+/// environment variable SEROSA_GL_DISABLE="egl,egl-device,osmesa,window" (any of them) makes kinds
+/// unavailable, to test what happens then.
 Result<std::unique_ptr<Context>> createContext(GlChoice choice);
 
 /// What `serosa doctor` prints of one kind.
@@ -66,11 +66,12 @@ struct ContextOffer {
     std::vector<std::pair<std::string, bool>>
         floatTargets; // renderable: RGBA32F, RGBA16F, ..., additive blending of RGBA32F
 };
-/// Tries every kind in turn (each in this thread) and reports; the context that was current is so again
-/// afterwards.
+/// Tries every kind in turn (each in this thread, the window hidden) and reports; the context that was
+/// current is so again afterwards.
 std::vector<ContextOffer> surveyContexts();
 
-/// The kind that GlChoice::automatic takes, judged by a survey; nothing when no kind is available.
+/// The kind that GlChoice::automatic takes, judged by a survey (never the window); nothing when it finds
+/// none.
 std::optional<ContextKind> automaticKind(const std::vector<ContextOffer>& offers);
 
 /// How GL errors that the debug callback reports are treated: a log line (default), or counted as failures by

@@ -44,6 +44,10 @@ enum class DeviceFilter { hardwareOnly, hardwareFirst };
 Attempt tryEglSurfaceless();
 Attempt tryEglDevice(DeviceFilter filter);
 Attempt tryOsmesa();
+/// A hidden window, for surveys; gpu/context_window.h opens those that are seen.
+Attempt tryWindow();
+/// Why SEROSA_GL_DISABLE rules a kind out, or empty.
+std::string disabledBecause(ContextKind kind);
 /// One kind by name; heeds SEROSA_GL_DISABLE.
 Attempt tryKind(ContextKind kind, DeviceFilter filter);
 

@@ -99,7 +99,8 @@ ContextOffer survey(ContextKind kind) {
 std::vector<ContextOffer> surveyContexts() {
     BackendContext* const before = BackendContext::current();
     std::vector<ContextOffer> offers;
-    for (const ContextKind kind : {ContextKind::egl, ContextKind::eglDevice, ContextKind::osmesa})
+    for (const ContextKind kind :
+         {ContextKind::egl, ContextKind::eglDevice, ContextKind::osmesa, ContextKind::window})
         offers.push_back(survey(kind));
     if (before)
         before->makeCurrent();

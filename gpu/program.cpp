@@ -74,6 +74,8 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(inputs_, other.inputs_);
     std::swap(name_, other.name_);
     std::swap(source_, other.source_);
+    std::swap(tolerant_, other.tolerant_);
+    std::swap(mismatches_, other.mismatches_);
     return *this;
 }
 
@@ -115,7 +117,7 @@ Result<Program> Program::create(const ShaderLibrary& library, const std::vector<
     if (!done)
         return Error{program.name_ + " does not link:\n" + programLog(program.id_)};
     labelObject(GL_PROGRAM, program.id_, program.name_);
-    program.listInputs();
+    SEROSA_TRY(program.listInputs());
     return program;
 }
 

@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -103,6 +104,13 @@ public:
     /// Names of active inputs that were never set; empty when use() would succeed.
     std::vector<std::string> unsetInputs() const;
 
+    /// For sources that a user edits while the program runs: from now on, inputs that the shader lacks, has
+    /// as another type or has beyond those that are set (they are 0) are bad input, kept for
+    /// takeMismatches(), and no broken promise.
+    void tolerateMismatches() { tolerant_ = true; }
+    /// What did not fit since the last call, one line each.
+    std::vector<std::string> takeMismatches();
+
 private:
     struct Input { // one active uniform, sampler or image
         GLint location = -1;
@@ -116,11 +124,15 @@ private:
     /// The input to set, or null for one that the compiler removed; aborts on an unknown name or another
     /// type.
     Input* find(const std::string& name, std::initializer_list<GLenum> types, std::size_t count = 1);
-    void listInputs();
+    Status listInputs();
+    /// Aborts unless mismatches are tolerated.
+    void mismatch(const std::string& what) const;
 
     std::map<std::string, Input> inputs_;
     std::string name_;   // stages, for messages
     std::string source_; // all stages, to tell an inactive name from an unknown one
+    bool tolerant_ = false;
+    mutable std::set<std::string> mismatches_;
 };
 
 /// Draws one triangle that covers the viewport (pass.vert makes it from gl_VertexID): what every state pass

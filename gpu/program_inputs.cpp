@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 namespace serosa::gpu {
 
@@ -42,7 +43,7 @@ bool mentions(const std::string& source, const std::string& identifier) {
 
 } // namespace
 
-void Program::listInputs() {
+Status Program::listInputs() {
     GLint count = 0, longest = 0;
     glGetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
     glGetProgramiv(id_, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
@@ -60,13 +61,24 @@ void Program::listInputs() {
         if (name.ends_with("[0]"))
             name.resize(name.size() - 3);
         if (isSampler(input.type) || isImage(input.type)) {
-            SEROSA_CHECK(input.count == 1,
-                         name_ + ": " + name + ": arrays of samplers and images are not supported");
+            if (input.count != 1)
+                return Error{name_ + ": " + name + ": arrays of samplers and images are not supported"};
             input.unit = isSampler(input.type) ? textureUnits++ : imageUnits++;
             glProgramUniform1i(id_, input.location, input.unit);
         }
         inputs_.emplace(name, input);
     }
+    return {};
+}
+
+void Program::mismatch(const std::string& what) const {
+    SEROSA_CHECK(tolerant_, name_ + what);
+    mismatches_.insert(name_ + what);
+}
+
+std::vector<std::string> Program::takeMismatches() {
+    const std::set<std::string> taken = std::exchange(mismatches_, {});
+    return {taken.begin(), taken.end()};
 }
 
 Program::Input* Program::find(const std::string& name, std::initializer_list<GLenum> types,
@@ -74,16 +86,21 @@ Program::Input* Program::find(const std::string& name, std::initializer_list<GLe
     const auto found = inputs_.find(name);
     if (found == inputs_.end()) {
         const std::string identifier = name.substr(0, name.find_first_of(".["));
-        SEROSA_CHECK(mentions(source_, identifier), name_ + " has no input \"" + name + "\"");
+        if (!mentions(source_, identifier))
+            mismatch(" has no input \"" + name + "\"");
         return nullptr;
     }
     Input& input = found->second;
-    SEROSA_CHECK(std::find(types.begin(), types.end(), input.type) != types.end(),
-                 name_ + ": input \"" + name + "\" is of another type in the shader");
-    SEROSA_CHECK(count >= static_cast<std::size_t>(input.count),
-                 name_ + ": input \"" + name + "\" has " + std::to_string(input.count) + " elements, " +
-                     std::to_string(count) + " were given");
     input.isSet = true;
+    if (std::find(types.begin(), types.end(), input.type) == types.end()) {
+        mismatch(": input \"" + name + "\" is of another type in the shader");
+        return nullptr;
+    }
+    if (count < static_cast<std::size_t>(input.count)) {
+        mismatch(": input \"" + name + "\" has " + std::to_string(input.count) + " elements, " +
+                 std::to_string(count) + " were given");
+        return nullptr;
+    }
     return &input;
 }
 
@@ -195,8 +212,9 @@ std::vector<std::string> Program::unsetInputs() const {
 void Program::use() const {
     SEROSA_CHECK(id_, "use of an empty program");
     for (const auto& [name, input] : inputs_) {
-        SEROSA_CHECK(input.isSet, name_ + ": input \"" + name + "\" was never set");
-        if (input.unit < 0)
+        if (!input.isSet)
+            mismatch(": input \"" + name + "\" was never set");
+        if (input.unit < 0 || (tolerant_ && input.textureId == 0))
             continue;
         SEROSA_CHECK(glIsTexture(input.textureId), name_ + ": the texture of input \"" + name + "\" is gone");
         const auto unit = static_cast<GLuint>(input.unit);

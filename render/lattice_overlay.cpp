@@ -38,11 +38,13 @@ constexpr int kFirstDiagonal = 6; // of kNeighbourOffsets
 
 } // namespace
 
+Result<gpu::Program> LatticeOverlay::compile(const gpu::ShaderLibrary& library) {
+    return gpu::Program::create(library, {"lattice.vert", "lattice.frag"}, {{"MAPPING_BASIS", "0"}});
+}
+
 Result<LatticeOverlay> LatticeOverlay::create(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
     LatticeOverlay overlay;
-    SEROSA_ASSIGN(overlay.program_,
-                  gpu::Program::create(gpu::ShaderLibrary(), {"lattice.vert", "lattice.frag"},
-                                       {{"MAPPING_BASIS", "0"}}));
+    SEROSA_ASSIGN(overlay.program_, compile(gpu::ShaderLibrary()));
     const auto texel = [&](std::size_t node) {
         return layout.texelOfNode[node].y << 16 | layout.texelOfNode[node].x;
     };

@@ -14,6 +14,10 @@ public:
     /// Springs with a connection bit that lie in boundary faces, and the nodes of those.
     static Result<LatticeOverlay> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
 
+    /// Its program from another source. Errors: as gpu::Program::create.
+    static Result<gpu::Program> compile(const gpu::ShaderLibrary& library);
+    gpu::Program& program() { return program_; }
+
     enum class Ink { light, dark }; // dark: over the colours of normals
     /// Draws into the bound target with its depth test; leaves blending off.
     void draw(const sim::StateTextures& state, const Frame& frame, Ink ink);

@@ -61,6 +61,12 @@ void PictureTarget::end() const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+void PictureTarget::show(int width, int height) const {
+    // Without GL_FRAMEBUFFER_SRGB the bytes are copied as they are.
+    glBlitNamedFramebuffer(readable_.id(), 0, 0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                           width == width_ && height == height_ ? GL_NEAREST : GL_LINEAR);
+}
+
 Image PictureTarget::read() const {
     const auto w = std::size_t(width_), h = std::size_t(height_);
     std::vector<std::uint8_t> rgba(w * h * 4);

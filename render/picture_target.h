@@ -22,6 +22,8 @@ public:
     void bind() const;
     /// Resolves the samples (in linear light) and leaves depth test, culling, blending and sRGB encoding off.
     void end() const;
+    /// Copies the last resolved picture into framebuffer 0 (a window) of this size, pixels.
+    void show(int width, int height) const;
     /// The last resolved picture, top row first. Waits for the GPU.
     Image read() const;
 

@@ -15,6 +15,8 @@ namespace {
 
 using sim::SurfaceColour;
 
+constexpr SurfaceStage kStages[] = {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected,
+                                    SurfaceStage::nodes};
 constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB of kFleshColour, where the mesh has no colours
 
 /// Square root of the linear value: the vertex stage squares it, and 8 bits suffice in the dark.
@@ -52,25 +54,29 @@ gpu::ShaderDefine stageDefine(SurfaceStage stage) {
 
 } // namespace
 
-Status SurfacePasses::createPrograms(bool anyConstant) {
-    const gpu::ShaderLibrary library;
-    for (const SurfaceStage stage :
-         {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected, SurfaceStage::nodes}) {
-        const bool corrected = stage == SurfaceStage::corrected;
-        const std::vector<gpu::ShaderDefine> defines = {stageDefine(stage),
-                                                        {"MAPPING_BASIS", !corrected    ? "0"
-                                                                          : anyConstant ? "2"
-                                                                                        : "1"}};
+std::vector<gpu::ShaderDefine> SurfacePasses::defines(SurfaceStage stage) const {
+    const bool corrected = stage == SurfaceStage::corrected;
+    return {stageDefine(stage), {"MAPPING_BASIS", !corrected ? "0" : anyConstant_ ? "2" : "1"}};
+}
+
+Result<SurfacePasses::Programs> SurfacePasses::compile(const gpu::ShaderLibrary& library) const {
+    Programs programs;
+    for (const SurfaceStage stage : kStages)
         for (const SurfaceColour colour : {SurfaceColour::tissue, SurfaceColour::dynamicNormal}) {
-            std::vector<gpu::ShaderDefine> all = defines;
+            std::vector<gpu::ShaderDefine> all = defines(stage);
             if (colour == SurfaceColour::dynamicNormal)
                 all.push_back({"SURFACE_NORMAL_COLOURS", ""});
             SEROSA_ASSIGN(gpu::Program program,
                           gpu::Program::create(library, {"surface.vert", "surface.frag"}, all));
-            programs_.emplace(std::pair(stage, colour), std::move(program));
+            programs.emplace(std::pair(stage, colour), std::move(program));
         }
-        SEROSA_ASSIGN(gpu::Program capture,
-                      gpu::Program::create(library, {"surface.vert"}, defines, {"v_position", "v_normal"}));
+    return programs;
+}
+
+Status SurfacePasses::createCaptures() {
+    for (const SurfaceStage stage : kStages) {
+        SEROSA_ASSIGN(gpu::Program capture, gpu::Program::create(gpu::ShaderLibrary(), {"surface.vert"},
+                                                                 defines(stage), {"v_position", "v_normal"}));
         captures_.emplace(stage, std::move(capture));
     }
     return {};
@@ -145,7 +151,9 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
     SurfacePasses passes;
     const bool corrected = binding.mapping == sim::Mapping::curvature;
-    SEROSA_TRY(passes.createPrograms(!corrected || binding.constantVertices > 0));
+    passes.anyConstant_ = !corrected || binding.constantVertices > 0;
+    SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
+    SEROSA_TRY(passes.createCaptures());
     passes.createGeometry(lattice, metres, binding, layout);
     return passes;
 }

@@ -22,6 +22,11 @@ public:
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                         const SurfaceBinding& binding, const sim::TextureLayout& layout);
 
+    using Programs = std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program>;
+    /// The drawing programs from another source. Errors: as gpu::Program::create.
+    Result<Programs> compile(const gpu::ShaderLibrary& library) const;
+    Programs& programs() { return programs_; }
+
     /// Draws into the bound target with its depth test.
     /// \param bare linear colour of a boundary that has none of its own (stage nodes).
     void draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
@@ -41,14 +46,16 @@ private:
         gpu::Buffer vertices;
     };
     SurfacePasses() = default;
-    Status createPrograms(bool anyConstant);
+    Status createCaptures();
+    std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
     void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                         const SurfaceBinding& binding, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage);
 
-    std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program> programs_;
+    bool anyConstant_ = false; // a vertex of the corrected mapping falls back to the constant basis
+    Programs programs_;
     std::map<SurfaceStage, gpu::Program> captures_;
     std::map<SurfaceStage, Geometry> geometry_;
     gpu::Buffer indices_, nodeIndices_;

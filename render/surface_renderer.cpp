@@ -35,6 +35,10 @@ SurfaceStage stageOf(sim::Mapping mapping) {
     return SurfaceStage::corrected;
 }
 
+Result<gpu::Program> compileBackdrop(const gpu::ShaderLibrary& library) {
+    return gpu::Program::create(library, {"pass.vert", "backdrop.frag"});
+}
+
 } // namespace
 
 SurfaceRenderer::SurfaceRenderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -48,8 +52,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
     SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, state.layout()));
     SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, state.layout()));
     SEROSA_ASSIGN(ToolSpheres tools, ToolSpheres::create());
-    SEROSA_ASSIGN(gpu::Program backdrop,
-                  gpu::Program::create(gpu::ShaderLibrary(), {"pass.vert", "backdrop.frag"}));
+    SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
     sim::Lattice placement;
     placement.spacing = lattice.spacing;
     placement.origin = lattice.origin;
@@ -72,8 +75,10 @@ void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
     const bool core = view.look.lattice && !view.look.surface; // hides the lines on the far side
     if (core)
         in.surface.draw(state, frame, SurfaceStage::nodes, sim::SurfaceColour::tissue, kCoreColour);
+    glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
     if (view.look.surface)
         in.surface.draw(state, frame, stageOf(view.look.mapping), view.look.colour);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     in.tools.draw(frame);
     if (view.look.lattice)
         in.lattice.draw(state, frame,
@@ -81,6 +86,55 @@ void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
                             ? LatticeOverlay::Ink::dark
                             : LatticeOverlay::Ink::light);
     in.target.end();
+}
+
+void SurfaceRenderer::resize(int width, int height) {
+    impl_->target = PictureTarget(width, height);
+}
+
+void SurfaceRenderer::show(int width, int height) const {
+    impl_->target.show(width, height);
+}
+
+Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const sim::StateTextures& state,
+                               const View& view) {
+    SEROSA_ASSIGN(SurfacePasses::Programs surface, impl_->surface.compile(library));
+    SEROSA_ASSIGN(gpu::Program lattice, LatticeOverlay::compile(library));
+    SEROSA_ASSIGN(gpu::Program tools, ToolSpheres::compile(library));
+    SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(library));
+    const auto exchange = [&] {
+        std::swap(impl_->surface.programs(), surface);
+        std::swap(impl_->lattice.program(), lattice);
+        std::swap(impl_->tools.program(), tools);
+        std::swap(impl_->backdrop, backdrop);
+    };
+    exchange();
+    std::vector<gpu::Program*> all = {&impl_->lattice.program(), &impl_->tools.program(), &impl_->backdrop};
+    for (auto& [key, program] : impl_->surface.programs())
+        all.push_back(&program);
+    for (gpu::Program* program : all)
+        program->tolerateMismatches();
+
+    View rehearsal = view;
+    rehearsal.look.surface = rehearsal.look.lattice = rehearsal.look.tools = true;
+    if (rehearsal.toolSpheres.empty())
+        rehearsal.toolSpheres.emplace_back(impl_->placement.origin, impl_->placement.spacing);
+    for (const sim::Mapping mapping :
+         {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
+        for (const sim::SurfaceColour colour :
+             {sim::SurfaceColour::tissue, sim::SurfaceColour::dynamicNormal}) {
+            rehearsal.look.mapping = mapping;
+            rehearsal.look.colour = colour;
+            draw(state, rehearsal);
+        }
+    std::string problems;
+    for (gpu::Program* program : all)
+        for (const std::string& problem : program->takeMismatches())
+            problems += (problems.empty() ? "" : "\n") + problem;
+    if (problems.empty())
+        return {};
+    exchange();
+    return Error{problems};
 }
 
 Image SurfaceRenderer::readImage() const {

@@ -4,7 +4,7 @@
 // is.
 
 #include "base/result.h"
-#include "gpu/handles.h"
+#include "gpu/program.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/surface_binding.h"
@@ -22,6 +22,7 @@ struct View {
     sim::Light light;
     sim::Look look;
     std::vector<std::pair<glm::dvec3, double>> toolSpheres; // centre, radius, m, world
+    bool wireframe = false;                                 // the surface as the edges of its front faces
 };
 
 /// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.
@@ -39,8 +40,16 @@ public:
     SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
     ~SurfaceRenderer();
 
+    /// Another size of the target, pixels; what was drawn is lost.
+    void resize(int width, int height);
+    /// Takes the drawing shaders from another source, and draws every way there is to see that they fit.
+    /// Errors (compiler logs; inputs that do not fit, by name): the shaders in use stay.
+    Status reload(const gpu::ShaderLibrary& library, const sim::StateTextures& state, const View& view);
+
     /// Draws a frame into the renderer's own multisampled target and resolves it.
     void draw(const sim::StateTextures& state, const View& view);
+    /// Copies the last drawn frame into framebuffer 0 (a window) of this size, pixels.
+    void show(int width, int height) const;
     /// The last drawn frame, sRGB, top row first.
     Image readImage() const;
     /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback),

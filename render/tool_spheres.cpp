@@ -11,9 +11,13 @@ namespace {
 constexpr int kAround = 72, kDown = 36;
 }
 
+Result<gpu::Program> ToolSpheres::compile(const gpu::ShaderLibrary& library) {
+    return gpu::Program::create(library, {"tool.vert", "tool.frag"});
+}
+
 Result<ToolSpheres> ToolSpheres::create() {
     ToolSpheres spheres;
-    SEROSA_ASSIGN(spheres.program_, gpu::Program::create(gpu::ShaderLibrary(), {"tool.vert", "tool.frag"}));
+    SEROSA_ASSIGN(spheres.program_, compile(gpu::ShaderLibrary()));
     std::vector<glm::vec3> vertices;
     std::vector<std::uint32_t> indices;
     for (int i = 0; i <= kDown; ++i)

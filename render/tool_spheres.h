@@ -10,6 +10,9 @@ namespace serosa::render {
 class ToolSpheres {
 public:
     static Result<ToolSpheres> create();
+    /// Its program from another source. Errors: as gpu::Program::create.
+    static Result<gpu::Program> compile(const gpu::ShaderLibrary& library);
+    gpu::Program& program() { return program_; }
     /// Draws the frame's tools into the bound target with its depth test.
     void draw(const Frame& frame);
 

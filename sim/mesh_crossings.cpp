@@ -147,6 +147,14 @@ int alignShared(glm::uvec3& t, glm::uvec3& u) {
 
 } // namespace
 
+bool facesMeet(const std::vector<glm::dvec3>& positions, glm::uvec3 first, glm::uvec3 second) {
+    const int shared = alignShared(first, second);
+    if (shared == 0)
+        return trianglesMeet(positions[first.x], positions[first.y], positions[first.z], positions[second.x],
+                             positions[second.y], positions[second.z]);
+    return shared == 3 || neighboursMeet(positions, first, second, shared);
+}
+
 std::uint64_t countCrossings(const TriangleMesh& mesh) {
     const TriangleTree tree(mesh.positions, mesh.faces);
     std::uint64_t count = 0;
@@ -157,12 +165,8 @@ std::uint64_t countCrossings(const TriangleMesh& mesh) {
             if (j <= i)
                 return;
             glm::uvec3 first = t, second = mesh.faces[j];
-            const int shared = alignShared(first, second);
-            if (shared == 0)
-                count += trianglesMeet(a, b, c, mesh.positions[second.x], mesh.positions[second.y],
-                                       mesh.positions[second.z]);
-            else if (shared < 3)
-                count += neighboursMeet(mesh.positions, first, second, shared);
+            if (alignShared(first, second) < 3)
+                count += facesMeet(mesh.positions, t, mesh.faces[j]);
         });
     }
     return count;

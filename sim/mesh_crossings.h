@@ -5,6 +5,7 @@
 #include "sim/triangle_mesh.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace serosa::sim {
 
@@ -14,9 +15,12 @@ namespace serosa::sim {
 bool trianglesMeet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d,
                    const glm::dvec3& e, const glm::dvec3& f);
 
-/// The number of pairs of triangles that meet: at all where they share no vertex index, beyond the shared
-/// vertex where they share one, folded onto each other where they share an edge. Pairs of three shared
-/// vertices do not count.
+/// True if two faces over the same vertices meet: at all where they share no vertex index, beyond the shared
+/// vertex where they share one, folded onto each other where they share an edge. Faces of the same three
+/// vertices meet.
+bool facesMeet(const std::vector<glm::dvec3>& positions, glm::uvec3 first, glm::uvec3 second);
+
+/// The number of pairs of faces that meet (facesMeet). Pairs of three shared vertices do not count.
 std::uint64_t countCrossings(const TriangleMesh& mesh);
 
 } // namespace serosa::sim

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uintmax_t kMaxBytes = std::uintmax_t(8)
                                      << 30; // so that 32 bits count its vertices and triangles
 
-enum class Format { obj, off, ply, stl, unknown };
+enum class Format { obj, off, ply, stl, vtk, tetgen, unknown };
 
 const char* nameOf(Format format) {
     switch (format) {
@@ -27,6 +27,10 @@ const char* nameOf(Format format) {
         return "PLY";
     case Format::stl:
         return "STL";
+    case Format::vtk:
+        return "VTK";
+    case Format::tetgen:
+        return "TetGen";
     case Format::unknown:
         break;
     }
@@ -43,7 +47,11 @@ Format formatOfName(const std::filesystem::path& file) {
         return Format::off;
     if (extension == ".ply")
         return Format::ply;
-    return extension == ".stl" ? Format::stl : Format::unknown;
+    if (extension == ".stl")
+        return Format::stl;
+    if (extension == ".vtk")
+        return Format::vtk;
+    return extension == ".node" || extension == ".face" ? Format::tetgen : Format::unknown;
 }
 
 bool startsWithWord(std::string_view bytes, std::string_view word) {
@@ -51,10 +59,12 @@ bool startsWithWord(std::string_view bytes, std::string_view word) {
            std::isspace(static_cast<unsigned char>(bytes[word.size()]));
 }
 
-/// OBJ and binary STL have no magic.
+/// OBJ, binary STL and TetGen's files have no magic.
 Format formatOfContent(std::string_view bytes) {
     if (startsWithWord(bytes, "ply"))
         return Format::ply;
+    if (bytes.starts_with("# vtk DataFile"))
+        return Format::vtk;
     for (const char* magic : {"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"})
         if (startsWithWord(bytes, magic))
             return Format::off;
@@ -95,6 +105,22 @@ Result<std::string> readWhole(const std::filesystem::path& file) {
     return bytes;
 }
 
+/// `source` is the content of one of the two files; the other one is read here.
+Result<TriangleMesh> parseTetgen(const std::filesystem::path& file, const detail::MeshSource& source) {
+    std::string extension = file.extension().string();
+    const bool isNode = std::tolower(static_cast<unsigned char>(extension[1])) == 'n';
+    std::filesystem::path partner = file;
+    partner.replace_extension(isNode ? ".face" : ".node");
+    std::error_code code;
+    if (!std::filesystem::exists(partner, code))
+        return Error{source.name + ": " + partner.filename().string() +
+                     " is not beside it; a TetGen surface is a .node and a .face file of one name (write the "
+                     "latter with tetgen -f)"};
+    SEROSA_ASSIGN(const std::string bytes, readWhole(partner));
+    const detail::MeshSource other{partner.string(), bytes};
+    return isNode ? detail::readTetgen(source, other) : detail::readTetgen(other, source);
+}
+
 Result<TriangleMesh> parse(const std::filesystem::path& file, const std::string& bytes) {
     const detail::MeshSource source{file.string(), bytes};
     if (bytes.starts_with("\xef\xbb\xbf"))
@@ -124,11 +150,15 @@ Result<TriangleMesh> parse(const std::filesystem::path& file, const std::string&
                                         firstBytes(bytes) +
                                         "; export it as STL or give it the extension of its format");
         return detail::readStl(source);
+    case Format::vtk:
+        return detail::readVtk(source);
+    case Format::tetgen:
+        return parseTetgen(file, source);
     case Format::unknown:
         break;
     }
     return source.atByte(0, "neither the extension nor the first bytes, " + firstBytes(bytes) +
-                                ", tell the format; use .obj, .ply, .off or .stl");
+                                ", tell the format; use .obj, .ply, .off, .stl, .vtk, or .node and .face");
 }
 
 } // namespace

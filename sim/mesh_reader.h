@@ -1,5 +1,6 @@
 #pragma once
-// Strict readers for OBJ, PLY (ascii and both binary byte orders), OFF and STL (ascii and binary).
+// Strict readers for OBJ, PLY (ascii and both binary byte orders), OFF, STL (ascii and binary), legacy VTK
+// POLYDATA (ascii and binary) and TetGen surfaces (.node beside .face).
 // Nothing is repaired silently: each error says file, line or byte, what is wrong and what to do.
 
 #include "base/result.h"
@@ -15,9 +16,10 @@ namespace serosa::sim {
 /// magic, NaN or infinite coordinates, index out of range, zero faces, counts larger than the file can hold,
 /// decimal commas, trailing data.
 /// Colours: PLY's uchar red green blue, OBJ's v x y z r g b, COFF. Passed over: normals, texture coordinates,
-/// materials (their files are never opened), further PLY properties and elements. The message starts with
-/// "FILE:LINE: " for text and "FILE: byte N: " for binary content. Whether the surface is a closed solid:
-/// sim/mesh_check.h.
+/// materials (their files are never opened), further PLY properties and elements, VTK's attributes, TetGen's
+/// attributes and markers. Of TetGen's two files either may be named; the other one lies beside it. The
+/// message starts with "FILE:LINE: " for text and "FILE: byte N: " for binary content. Whether the surface is
+/// a closed solid: sim/mesh_check.h.
 Result<TriangleMesh> readMesh(const std::filesystem::path& file);
 
 } // namespace serosa::sim

@@ -1,5 +1,5 @@
 #pragma once
-// What the four mesh readers share: errors that name line or byte, strict numbers, and lines cut into words.
+// What the mesh readers share: errors that name line or byte, strict numbers, and lines cut into words.
 // Not for use outside of sim/mesh_reader*.cpp.
 
 #include "base/result.h"
@@ -70,6 +70,9 @@ Result<TriangleMesh> readObj(const MeshSource& source);
 Result<TriangleMesh> readOff(const MeshSource& source);
 Result<TriangleMesh> readPly(const MeshSource& source);
 Result<TriangleMesh> readStl(const MeshSource& source);
+Result<TriangleMesh> readVtk(const MeshSource& source);
+/// The two files of one surface.
+Result<TriangleMesh> readTetgen(const MeshSource& nodes, const MeshSource& faces);
 
 /// True if an STL file of these bytes is a binary one: its size fits its triangle count, or it does not read
 /// as text.

@@ -184,8 +184,10 @@ TEST_F(GlContexts, TheSurveyLeavesTheCurrentContextCurrent) {
         offers = surveyContexts();
         EXPECT_EQ(marker.read(), kRed);
     }
-    ASSERT_EQ(offers.size(), 3u);
+    ASSERT_EQ(offers.size(), 4u);
     for (const ContextOffer& offer : offers) {
+        if (offer.kind == ContextKind::window) // tests/gpu/context_window_gl_test.cpp
+            continue;
         EXPECT_TRUE(offer.available) << offer.problem;
         EXPECT_EQ(offer.limits.size(), 8u);
         EXPECT_EQ(offer.floatTargets.size(), 4u);

@@ -121,4 +121,60 @@ inline std::string stlBinary() {
     return bytes;
 }
 
+inline const std::string kVtkText =
+    "# vtk DataFile Version 3.0\na title\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0\n0 1 0\n0 0 "
+    "1\nPOLYGONS 4 16\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+
+/// Big-endian, with a METADATA block and attributes to be passed over.
+inline std::string vtkBinary() {
+    std::string bytes = "# vtk DataFile Version 4.2\n\nBINARY\nDATASET POLYDATA\nPOINTS 4 float\n";
+    for (const auto& p : tetrahedron().positions)
+        for (int axis = 0; axis < 3; ++axis)
+            append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(p[axis])), 4, false);
+    bytes += "\nMETADATA\nINFORMATION 0\n\nPOLYGONS 4 16\n";
+    for (const auto& face : tetrahedron().faces) {
+        append(bytes, 3, 4, false);
+        for (int corner = 0; corner < 3; ++corner)
+            append(bytes, face[corner], 4, false);
+    }
+    return bytes + "\nCELL_DATA 4\nSCALARS a float 1\nLOOKUP_TABLE default\n\1\2\3";
+}
+
+/// Version 5.1: offsets and connectivity, 64 bits, double coordinates.
+inline std::string vtkOffsets(bool binary) {
+    std::string bytes = "# vtk DataFile Version 5.1\nvtk output\n";
+    bytes += binary ? "BINARY\n" : "ASCII\n";
+    bytes += "DATASET POLYDATA\nPOINTS 4 double\n";
+    const auto integer = [&](std::uint32_t value) {
+        if (binary) {
+            append(bytes, 0, 4, false);
+            append(bytes, value, 4, false);
+        } else {
+            bytes += std::to_string(value) + " ";
+        }
+    };
+    for (const auto& p : tetrahedron().positions)
+        for (int axis = 0; axis < 3; ++axis)
+            if (binary) {
+                const auto bits = std::bit_cast<std::uint64_t>(p[axis]);
+                append(bytes, static_cast<std::uint32_t>(bits >> 32), 4, false);
+                append(bytes, static_cast<std::uint32_t>(bits), 4, false);
+            } else {
+                integer(static_cast<std::uint32_t>(p[axis]));
+            }
+    bytes += "\nPOLYGONS 5 12\nOFFSETS vtktypeint64\n";
+    for (std::uint32_t i = 0; i <= 4; ++i)
+        integer(3 * i);
+    bytes += "\nCONNECTIVITY vtktypeint64\n";
+    for (const auto& face : tetrahedron().faces)
+        for (int corner = 0; corner < 3; ++corner)
+            integer(face[corner]);
+    return bytes + "\n";
+}
+
+/// TetGen, counted from 1, with an attribute, markers and a node that no face uses.
+inline const std::string kNode = "# nodes\n5 3 1 1\n1 0 0 0 0.5 1\n2 1 0 0 -1 1\n3 0 1 0 0 1\n"
+                                 "4 0 0 1 2e3 1 # the top\n5 0.1 0.1 0.1 0 0\n";
+inline const std::string kFace = "4 1\n1 1 3 2 -1\n2 1 2 4 -1\n3 1 4 3 -1\n4 2 3 4 7\n# end\n";
+
 } // namespace serosa::sim
