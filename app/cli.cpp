@@ -98,8 +98,9 @@ struct RunArguments {
     std::string scene, model, lengthUnit, solver = "fragment", gl = "auto", size, mapping, out, spacing,
                                           layout = "auto";
     int frames = 0;
+    std::string upAxis;
     std::size_t nodes = 0;
-    bool force = false;
+    bool force = false, repair = false;
 };
 
 Result<int> run(const RunArguments& given) {
@@ -113,9 +114,19 @@ Result<int> run(const RunArguments& given) {
         return Error{"--model needs --length-unit: a mesh file has no unit (mm, cm, m, um, in)"};
     if (given.model.empty() && !given.lengthUnit.empty())
         return Error{"--length-unit belongs to --model; a scene file says length_unit"};
+    if (given.model.empty() && given.repair)
+        return Error{"--repair belongs to --model; a scene file says repair = true"};
+    if (given.model.empty() && !given.upAxis.empty())
+        return Error{"--up-axis belongs to --model; a scene file says up_axis"};
     options.scene = given.scene;
     options.model = given.model;
     options.lengthUnit = given.lengthUnit;
+    options.repair = given.repair;
+    if (!given.upAxis.empty()) {
+        SEROSA_ASSIGN(const int axis,
+                      wordIndex("--up-axis", given.upAxis, sim::findSceneKey("organ", "up_axis")->words));
+        options.upAxis = sim::UpAxis(axis);
+    }
     SEROSA_TRY(wordIndex("--solver", given.solver, {"fragment", "reference"}));
     options.solver = given.solver;
     SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
@@ -150,19 +161,30 @@ void addGlOption(CLI::App& command, std::string& gl) {
         ->default_str("auto");
 }
 
+void addRepairFlag(CLI::App& command, bool& repair) {
+    command.add_flag("--repair", repair,
+                     "mend winding, small holes, duplicate faces and stray vertices (docs/import.md)");
+}
+
 void addRun(CLI::App& app, Choice& choice) {
     CLI::App* command =
         app.add_subcommand("run", "Simulate a scene or a model; write pictures, surfaces, summary.json");
     auto given = std::make_shared<RunArguments>();
     command->add_option("scene", given->scene, "scene file (docs/scene.md)")->type_name("SCENE");
     command
-        ->add_option("--model", given->model,
-                     "instead of a scene: a closed surface (OBJ, PLY, OFF, STL) with a default tissue (5 "
-                     "kPa) and probe")
+        ->add_option(
+            "--model", given->model,
+            "instead of a scene: a closed surface (OBJ, PLY, OFF, STL, VTK, TetGen) with a default tissue (5 "
+            "kPa) and probe")
         ->type_name("FILE");
     command
         ->add_option("--length-unit", given->lengthUnit, "unit of --model's coordinates: mm, cm, m, um, in")
         ->type_name("U");
+    command
+        ->add_option("--up-axis", given->upAxis,
+                     "axis of --model that points up: x, y, z, -x, -y, -z (default: y)")
+        ->type_name("A");
+    addRepairFlag(*command, given->repair);
     command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")
         ->type_name("DIR");
     command->add_flag("--force", given->force,
@@ -208,9 +230,12 @@ void addInspect(CLI::App& app, Choice& choice) {
     struct Arguments {
         std::string file, lengthUnit, spacing;
         std::size_t nodes = 20000;
+        bool repair = false;
     };
     auto given = std::make_shared<Arguments>();
-    command->add_option("file", given->file, "surface: OBJ, PLY, OFF or STL")->required()->type_name("FILE");
+    command->add_option("file", given->file, "surface: OBJ, PLY, OFF, STL, VTK or TetGen")
+        ->required()
+        ->type_name("FILE");
     command->add_option("--length-unit", given->lengthUnit, "unit of its coordinates: mm, cm, m, um, in")
         ->type_name("U");
     command->add_option("--nodes", given->nodes, "lattice nodes aimed at")
@@ -221,6 +246,7 @@ void addInspect(CLI::App& app, Choice& choice) {
         ->add_option("--spacing", given->spacing, "lattice spacing, such as \"2.5 mm\", instead of --nodes")
         ->type_name("L")
         ->excludes("--nodes");
+    addRepairFlag(*command, given->repair);
     command->footer("Example:\n  serosa inspect liver.stl --length-unit mm\n"
                     "Exit codes: 0 usable, 2 unreadable, or no closed solid.");
     command->callback([given, &choice] {
@@ -231,8 +257,34 @@ void addInspect(CLI::App& app, Choice& choice) {
                     return Error{"--spacing needs --length-unit: without it the mesh has no unit"};
                 SEROSA_ASSIGN(spacing, parseSpacing(given->spacing));
             }
-            return inspectModel(given->file, given->lengthUnit, given->nodes, spacing, std::cout);
+            return inspectModel(given->file, given->repair, given->lengthUnit, given->nodes, spacing,
+                                std::cout);
         };
+    });
+}
+
+void addRepair(CLI::App& app, Choice& choice) {
+    CLI::App* command = app.add_subcommand("repair", "Mend a surface's named faults and write it");
+    struct Arguments {
+        std::string from, to;
+        bool force = false;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("file", given->from, "surface: OBJ, PLY, OFF, STL, VTK or TetGen")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("-o,--output", given->to, "file to write: .ply, .obj, .off or .stl")
+        ->required()
+        ->type_name("OUT");
+    command->add_flag("--force", given->force, "replace an existing file");
+    command->footer(
+        "Mends faces with a repeated corner, duplicate faces, winding, holes of at most 128 edges "
+        "and a fifth of the surface's size, and stray vertices; says what it did. All else is "
+        "refused (docs/import.md).\n"
+        "Example:\n  serosa repair scan.obj -o organ.ply\n"
+        "Exit codes: 0 written, 2 unreadable, or a fault that is not mended.");
+    command->callback([given, &choice] {
+        choice.action = [given] { return repairModel(given->from, given->to, given->force, std::cout); };
     });
 }
 
@@ -373,6 +425,7 @@ std::unique_ptr<CLI::App> makeCommandTree(Choice& choice) {
     app.add_flag("-v,--verbose", choice.verbosity, "log to stderr; -vv says more");
     addRun(app, choice);
     addInspect(app, choice);
+    addRepair(app, choice);
     addScene(app, choice);
     addPhantom(app, choice);
     addVerify(app, choice);
