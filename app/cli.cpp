@@ -3,15 +3,13 @@
 
 #include "app/cli.h"
 
+#include "app/cli_run.h"
 #include "app/commands.h"
 #include "app/doctor.h"
-#include "app/run.h"
 #include "app/verify.h"
 #include "app/version.h"
 #include "models/phantom.h"
-#include "shaders/shared_constants.h"
 #include "sim/quantity.h"
-#include "sim/scene_keys.h"
 #include "sim/suggest.h"
 
 #include <CLI/CLI.hpp>
@@ -48,36 +46,6 @@ int report(const Error& error) {
     return error.exitCode;
 }
 
-/// The index of a word, or an error that names the option.
-Result<int> wordIndex(const std::string& option, const std::string& text,
-                      const std::vector<std::string>& words) {
-    for (std::size_t i = 0; i < words.size(); ++i)
-        if (text == words[i])
-            return int(i);
-    return Error{option + ": unknown value " + sim::inQuotes(text) + sim::suggestion(text, words)};
-}
-
-Result<glm::ivec2> parseSize(const std::string& text) {
-    glm::ivec2 size(0);
-    char rest = 0;
-    if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2)
-        return Error{"--size: " + sim::inQuotes(text) +
-                     " is not a size: write width x height in pixels, such as 960x540"};
-    const sim::ValueRange range = sim::findSceneKey("output", "size")->range;
-    if (!range.holds(size.x) || !range.holds(size.y))
-        return Error{"--size: " + sim::inQuotes(text) + ": each side goes " + range.text() + " pixels"};
-    return size;
-}
-
-Result<double> parseSpacing(const std::string& text) {
-    Result<double> spacing = sim::parseQuantity(text, sim::Dimension::length);
-    if (!spacing)
-        return Error{"--spacing: " + spacing.error().message};
-    if (!(*spacing > 0))
-        return Error{"--spacing: " + sim::inQuotes(text) + " is not greater than 0"};
-    return spacing;
-}
-
 Result<Injection> parseInjection(const std::string& text) {
     const std::string name = text.substr(0, text.find('='));
     const std::string value = name.size() < text.size() ? text.substr(name.size() + 1) : "";
@@ -94,123 +62,17 @@ Result<Injection> parseInjection(const std::string& text) {
     return injection;
 }
 
-struct RunArguments {
-    std::string scene, model, lengthUnit, solver = "fragment", gl = "auto", size, mapping, out, spacing,
-                                          layout = "auto";
-    int frames = 0;
-    std::size_t nodes = 0;
-    bool force = false;
-};
-
-Result<int> run(const RunArguments& given) {
-    RunOptions options;
-    if (given.scene.empty() == given.model.empty())
-        return Error{
-            given.scene.empty()
-                ? "run needs a scene file, or --model FILE with --length-unit U (see 'serosa run --help')"
-                : "run takes a scene file or --model, not both"};
-    if (!given.model.empty() && given.lengthUnit.empty())
-        return Error{"--model needs --length-unit: a mesh file has no unit (mm, cm, m, um, in)"};
-    if (given.model.empty() && !given.lengthUnit.empty())
-        return Error{"--length-unit belongs to --model; a scene file says length_unit"};
-    options.scene = given.scene;
-    options.model = given.model;
-    options.lengthUnit = given.lengthUnit;
-    SEROSA_TRY(wordIndex("--solver", given.solver, {"fragment", "reference"}));
-    options.solver = given.solver;
-    SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
-    SEROSA_ASSIGN(const int layout, wordIndex("--layout", given.layout, {"auto", "grid", "rows"}));
-    options.layout = layout == 0 ? -1 : layout == 1 ? SRS_LAYOUT_GRID : SRS_LAYOUT_ROWS;
-    if (given.frames > 0)
-        options.frames = given.frames;
-    if (!given.size.empty()) {
-        SEROSA_ASSIGN(const glm::ivec2 size, parseSize(given.size));
-        options.width = size.x;
-        options.height = size.y;
-    }
-    if (!given.mapping.empty()) {
-        SEROSA_ASSIGN(const int mapping,
-                      wordIndex("--mapping", given.mapping, sim::findSceneKey("look", "mapping")->words));
-        options.mapping = sim::Mapping(mapping);
-    }
-    if (given.nodes > 0)
-        options.nodes = given.nodes;
-    if (!given.spacing.empty()) {
-        SEROSA_ASSIGN(options.spacing, parseSpacing(given.spacing));
-    }
-    options.out = given.out;
-    options.force = given.force;
-    return runScene(options, std::cout);
-}
-
-void addGlOption(CLI::App& command, std::string& gl) {
-    command
-        .add_option("--gl", gl,
-                    "OpenGL context: auto (a GPU's EGL device, EGL, then OSMesa), egl, egl-device, osmesa")
-        ->default_str("auto");
-}
-
-void addRun(CLI::App& app, Choice& choice) {
-    CLI::App* command =
-        app.add_subcommand("run", "Simulate a scene or a model; write pictures, surfaces, summary.json");
-    auto given = std::make_shared<RunArguments>();
-    command->add_option("scene", given->scene, "scene file (docs/scene.md)")->type_name("SCENE");
-    command
-        ->add_option("--model", given->model,
-                     "instead of a scene: a closed surface (OBJ, PLY, OFF, STL) with a default tissue (5 "
-                     "kPa) and probe")
-        ->type_name("FILE");
-    command
-        ->add_option("--length-unit", given->lengthUnit, "unit of --model's coordinates: mm, cm, m, um, in")
-        ->type_name("U");
-    command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")
-        ->type_name("DIR");
-    command->add_flag("--force", given->force,
-                      "write into a folder that holds something; results of an earlier run are replaced");
-    command
-        ->add_option("--frames", given->frames,
-                     "number of frames, instead of the scene's duration (default model: 120)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1000000));
-    command->add_option("--size", given->size, "size of the pictures in pixels (default: 960x960)")
-        ->type_name("WxH");
-    command
-        ->add_option("--mapping", given->mapping,
-                     "how the surface follows the lattice: one-to-one, triangle, curvature")
-        ->type_name("M");
-    command->add_option("--nodes", given->nodes, "lattice nodes aimed at (default: 20000)")
-        ->type_name("N")
-        ->check(CLI::Range(8, 1000000000));
-    command
-        ->add_option("--spacing", given->spacing,
-                     "lattice spacing with its unit, such as \"2.5 mm\", instead of --nodes")
-        ->type_name("L")
-        ->excludes("--nodes");
-    command
-        ->add_option("--solver", given->solver,
-                     "fragment (on the GPU) or reference (CPU, double precision, slow)")
-        ->default_str("fragment");
-    command
-        ->add_option("--layout", given->layout,
-                     "textures of the lattice: auto (by how full its grid is), grid, rows")
-        ->default_str("auto");
-    addGlOption(*command, given->gl);
-    command->footer(
-        "Examples:\n"
-        "  serosa run heart.toml\n"
-        "  serosa run --model liver.stl --length-unit mm --nodes 5000 --frames 60 --out liver\n"
-        "Exit codes: 0 done, 1 the state ran away, 2 bad input, 5 no OpenGL context, 130 interrupted.");
-    command->callback([given, &choice] { choice.action = [given] { return run(*given); }; });
-}
-
 void addInspect(CLI::App& app, Choice& choice) {
     CLI::App* command = app.add_subcommand("inspect", "Say what a mesh is and what lattice it would give");
     struct Arguments {
         std::string file, lengthUnit, spacing;
         std::size_t nodes = 20000;
+        bool repair = false;
     };
     auto given = std::make_shared<Arguments>();
-    command->add_option("file", given->file, "surface: OBJ, PLY, OFF or STL")->required()->type_name("FILE");
+    command->add_option("file", given->file, "surface: OBJ, PLY, OFF, STL, VTK or TetGen")
+        ->required()
+        ->type_name("FILE");
     command->add_option("--length-unit", given->lengthUnit, "unit of its coordinates: mm, cm, m, um, in")
         ->type_name("U");
     command->add_option("--nodes", given->nodes, "lattice nodes aimed at")
@@ -221,6 +83,7 @@ void addInspect(CLI::App& app, Choice& choice) {
         ->add_option("--spacing", given->spacing, "lattice spacing, such as \"2.5 mm\", instead of --nodes")
         ->type_name("L")
         ->excludes("--nodes");
+    addRepairFlag(*command, given->repair);
     command->footer("Example:\n  serosa inspect liver.stl --length-unit mm\n"
                     "Exit codes: 0 usable, 2 unreadable, or no closed solid.");
     command->callback([given, &choice] {
@@ -231,8 +94,34 @@ void addInspect(CLI::App& app, Choice& choice) {
                     return Error{"--spacing needs --length-unit: without it the mesh has no unit"};
                 SEROSA_ASSIGN(spacing, parseSpacing(given->spacing));
             }
-            return inspectModel(given->file, given->lengthUnit, given->nodes, spacing, std::cout);
+            return inspectModel(given->file, given->repair, given->lengthUnit, given->nodes, spacing,
+                                std::cout);
         };
+    });
+}
+
+void addRepair(CLI::App& app, Choice& choice) {
+    CLI::App* command = app.add_subcommand("repair", "Mend a surface's named faults and write it");
+    struct Arguments {
+        std::string from, to;
+        bool force = false;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("file", given->from, "surface: OBJ, PLY, OFF, STL, VTK or TetGen")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("-o,--output", given->to, "file to write: .ply, .obj, .off or .stl")
+        ->required()
+        ->type_name("OUT");
+    command->add_flag("--force", given->force, "replace an existing file");
+    command->footer(
+        "Mends faces with a repeated corner, duplicate faces, winding, holes of at most 128 edges "
+        "and a fifth of the surface's size, and stray vertices; says what it did. All else is "
+        "refused (docs/import.md).\n"
+        "Example:\n  serosa repair scan.obj -o organ.ply\n"
+        "Exit codes: 0 written, 2 unreadable, or a fault that is not mended.");
+    command->callback([given, &choice] {
+        choice.action = [given] { return repairModel(given->from, given->to, given->force, std::cout); };
     });
 }
 
@@ -371,8 +260,10 @@ std::unique_ptr<CLI::App> makeCommandTree(Choice& choice) {
     app.require_subcommand(1);
     app.fallthrough();
     app.add_flag("-v,--verbose", choice.verbosity, "log to stderr; -vv says more");
-    addRun(app, choice);
+    addRun(app, choice.action);
+    addView(app, choice.action);
     addInspect(app, choice);
+    addRepair(app, choice);
     addScene(app, choice);
     addPhantom(app, choice);
     addVerify(app, choice);

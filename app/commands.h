@@ -12,10 +12,16 @@
 namespace serosa::app {
 
 /// `serosa inspect`: what a mesh is, and the lattice it would give. An open or otherwise unusable surface is
-/// reported and then refused as an Error. \param lengthUnit "mm", ...; empty: lengths are in file units.
+/// reported and then refused as an Error, with a hint where a repair would mend it. \param repair mend it
+/// first, and say what was done. \param lengthUnit "mm", ...; empty: lengths are in file units.
 /// \param spacing m (file units without a unit).
-Result<int> inspectModel(const std::filesystem::path& file, const std::string& lengthUnit, std::size_t nodes,
-                         std::optional<double> spacing, std::ostream& out);
+Result<int> inspectModel(const std::filesystem::path& file, bool repair, const std::string& lengthUnit,
+                         std::size_t nodes, std::optional<double> spacing, std::ostream& out);
+
+/// `serosa repair`: writes the mended surface, in the format that `to` names. An existing file is refused
+/// without `force`. A file without a fault is written too, unchanged but for the format.
+Result<int> repairModel(const std::filesystem::path& from, const std::filesystem::path& to, bool force,
+                        std::ostream& out);
 
 /// `serosa scene check`: everything that a run would check before it needs a GL context, but for memory.
 Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out);

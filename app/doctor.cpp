@@ -63,14 +63,15 @@ void writeOffer(std::ostream& out, const gpu::ContextOffer& offer) {
 } // namespace
 
 const char* doctorHelp() {
-    return "Tries every kind of OpenGL context that runs without a window (egl, egl-device, osmesa) and "
-           "prints for each\n"
+    return "Tries every kind of OpenGL context (egl, egl-device and osmesa, which run without a window; and "
+           "the window\nof 'serosa view', which needs a display) and prints for each\n"
            "vendor, renderer, version, limits beside what serosa needs, float targets tried by rendering, or "
            "why it is\n"
            "not available and which Debian 12 package helps. Warns when the renderer is software.\n"
-           "Environment: SEROSA_GL_DISABLE=egl,egl-device,osmesa (any of them) makes kinds unavailable, to "
+           "Environment: SEROSA_GL_DISABLE=egl,egl-device,osmesa,window (any of them) makes kinds "
+           "unavailable, to "
            "test the rest.\n"
-           "Exit code: 0 if at least one kind works, 5 if none does.";
+           "Exit code: 0 if at least one kind without a window works, 5 if none does.";
 }
 
 int runDoctor(std::ostream& out) {
@@ -82,11 +83,12 @@ int runDoctor(std::ostream& out) {
     if (!choice) {
         // A software EGL device alone is not taken by itself, but works when asked for.
         for (const gpu::ContextOffer& offer : offers)
-            if (offer.available) {
+            if (offer.available && offer.kind != gpu::ContextKind::window) {
                 out << "--gl auto finds nothing; use --gl " << gpu::contextKindName(offer.kind) << ".\n";
                 return exitOk;
             }
-        out << "No kind of context works: serosa cannot simulate or draw here (its commands end with exit "
+        out << "No kind of context without a window works: serosa cannot simulate or draw here (its commands "
+               "end with exit "
                "code "
             << exitNoGl << ").\n"
             << "To do: apt install libegl1 libegl-mesa0 libosmesa6 (software, any machine), or the GPU "

@@ -1,10 +1,11 @@
-// `serosa inspect` and `serosa phantom`: the commands about a mesh alone.
+// `serosa inspect`, `serosa repair` and `serosa phantom`: the commands about a mesh alone.
 
 #include "app/commands.h"
 #include "app/organ_setup.h"
 #include "models/phantom.h"
 #include "sim/mesh_check.h"
 #include "sim/mesh_reader.h"
+#include "sim/mesh_repair.h"
 #include "sim/mesh_writer.h"
 
 #include <ostream>
@@ -52,19 +53,35 @@ void printReport(const sim::MeshReport& report, const std::string& unit, std::os
     count("unused vertices     ", report.unusedVertices);
 }
 
+/// A file to write: not a folder, and not there already.
+Status checkTarget(const std::filesystem::path& file, const std::string& example, bool force) {
+    std::error_code code;
+    if (std::filesystem::is_directory(file, code))
+        return Error{file.string() + " is a folder: name a file, such as " + example};
+    if (!force && std::filesystem::exists(file, code))
+        return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
+    return {};
+}
+
 } // namespace
 
-Result<int> inspectModel(const std::filesystem::path& file, const std::string& lengthUnit, std::size_t nodes,
-                         std::optional<double> spacing, std::ostream& out) {
+Result<int> inspectModel(const std::filesystem::path& file, bool repair, const std::string& lengthUnit,
+                         std::size_t nodes, std::optional<double> spacing, std::ostream& out) {
     sim::Organ organ;
     organ.lengthUnit = 1;
     if (!lengthUnit.empty()) {
         SEROSA_ASSIGN(organ.lengthUnit, sim::parseLengthUnit(lengthUnit));
     }
     SEROSA_ASSIGN(sim::TriangleMesh mesh, sim::readMesh(file));
+    if (repair) {
+        SEROSA_ASSIGN(sim::RepairedMesh mended, sim::repairMesh(std::move(mesh), file.string()));
+        mesh = std::move(mended.mesh);
+        printRepair(mended.report, out);
+    }
     printReport(sim::inspectMesh(mesh, true), lengthUnit.empty() ? "file units" : lengthUnit, out);
     out << std::flush;
-    SEROSA_TRY(sim::checkClosedSolid(mesh, file.string()));
+    if (const Status solid = sim::checkClosedSolid(mesh, file.string()); !solid.ok())
+        return sim::withRepairHint(solid.error(), mesh);
 
     for (glm::dvec3& position : mesh.positions)
         position *= organ.lengthUnit;
@@ -83,13 +100,21 @@ Result<int> inspectModel(const std::filesystem::path& file, const std::string& l
     return int(exitOk);
 }
 
+Result<int> repairModel(const std::filesystem::path& from, const std::filesystem::path& to, bool force,
+                        std::ostream& out) {
+    SEROSA_TRY(checkTarget(to, from.stem().string() + ".ply", force));
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, sim::readMesh(from));
+    SEROSA_ASSIGN(const sim::RepairedMesh mended, sim::repairMesh(std::move(mesh), from.string()));
+    SEROSA_TRY(sim::writeMesh(mended.mesh, to));
+    printRepair(mended.report, out);
+    out << to.string() << ": " << grouped(mended.mesh.positions.size()) << " vertices, "
+        << grouped(mended.mesh.faces.size()) << " faces\n";
+    return int(exitOk);
+}
+
 Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
                          bool force, std::ostream& out) {
-    std::error_code code;
-    if (std::filesystem::is_directory(file, code))
-        return Error{file.string() + " is a folder: name a file, such as " + name + ".ply"};
-    if (!force && std::filesystem::exists(file, code))
-        return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
+    SEROSA_TRY(checkTarget(file, name + ".ply", force));
     if (faces == 0) {
         faces = kAnyFaces;
         for (const models::PhantomInfo& info : models::phantoms())

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
 
 namespace serosa::app {
 
@@ -22,20 +23,37 @@ std::string scenePosition(const std::filesystem::path& scene, int line) {
 
 } // namespace
 
+Result<sim::RepairedMesh> readSolid(const std::filesystem::path& file, bool repair) {
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, sim::readMesh(file));
+    if (repair)
+        return sim::repairMesh(std::move(mesh), file.string());
+    if (const Status closed = sim::checkClosedSolid(mesh, file.string()); !closed.ok())
+        return sim::withRepairHint(closed.error(), mesh);
+    return sim::RepairedMesh{std::move(mesh), {}};
+}
+
+sim::TriangleMesh deformedFile(const sim::Organ& organ, const OrganSurface& surface,
+                               const std::vector<glm::dvec3>& deformed, const std::vector<glm::dvec3>& rest) {
+    sim::TriangleMesh mesh = surface.file;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        mesh.positions[i] += sim::fileFromWorld(organ.upAxis, deformed[i] - rest[i]) / organ.lengthUnit;
+    return mesh;
+}
+
 Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem::path& scene) {
     const auto inScene = [&](const Error& error) {
         return Error{scenePosition(scene, organ.modelLine) + error.message, error.exitCode};
     };
     OrganSurface surface;
-    Result<sim::TriangleMesh> mesh = sim::readMesh(organ.model);
-    if (!mesh)
-        return inScene(mesh.error());
-    surface.file = std::move(*mesh);
-    if (const Status closed = sim::checkClosedSolid(surface.file, organ.model.string()); !closed.ok())
-        return inScene(closed.error());
+    Result<sim::RepairedMesh> solid = readSolid(organ.model, organ.repair);
+    if (!solid)
+        return inScene(solid.error());
+    surface.file = std::move(solid->mesh);
+    if (organ.repair)
+        surface.repair = solid->report;
     surface.metres = surface.file;
     for (glm::dvec3& position : surface.metres.positions)
-        position *= organ.lengthUnit;
+        position = sim::worldFromFile(organ.upAxis, position) * organ.lengthUnit;
     return surface;
 }
 
@@ -80,6 +98,18 @@ Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& l
                      shortNumber(steps) +
                      " steps or more (at most 100,000): lower young or damping_time, or raise spacing"};
     return sim::stableStep(lattice, organ.tissue, frameTime);
+}
+
+void printRepair(const sim::RepairReport& repair, std::ostream& out) {
+    for (const std::string& line : repair.lines())
+        out << "repair: " << line << "\n";
+    if (!repair.changed())
+        out << "repair: nothing to mend\n";
+}
+
+void printRepair(const OrganSurface& surface, std::ostream& out) {
+    if (surface.repair)
+        printRepair(*surface.repair, out);
 }
 
 std::string grouped(std::size_t number) {

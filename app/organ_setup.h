@@ -4,20 +4,32 @@
 
 #include "base/result.h"
 #include "sim/lattice.h"
+#include "sim/mesh_repair.h"
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/triangle_mesh.h"
 
+#include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace serosa::app {
 
-/// A closed solid as its file has it, and in metres.
+/// A closed solid as its file has it (mended if that was asked for), and in the world.
 struct OrganSurface {
-    sim::TriangleMesh file;   // the file's own unit
-    sim::TriangleMesh metres; // same vertex and face order
+    sim::TriangleMesh file;                  // the file's own unit and axes
+    sim::TriangleMesh metres;                // turned so that y is up; same vertex and face order
+    std::optional<sim::RepairReport> repair; // where the organ asks for it
 };
+
+/// Reads a model and checks it, or mends it where `repair` is set. Errors: of the file; a fault that a repair
+/// would mend is refused with a hint at it.
+Result<sim::RepairedMesh> readSolid(const std::filesystem::path& file, bool repair);
+
+/// The surface with the displacement of each vertex (m, world) in the file's own unit and axes.
+sim::TriangleMesh deformedFile(const sim::Organ& organ, const OrganSurface& surface,
+                               const std::vector<glm::dvec3>& deformed, const std::vector<glm::dvec3>& rest);
 
 /// Reads and checks. Errors of the file itself; where the scene has a line for it, the message leads with
 /// that. \param scene for messages; may be empty.
@@ -32,6 +44,11 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
 
 /// The stable step, refused where a frame would take more than 100,000 steps.
 Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime);
+
+/// A line for each kind of fault that was mended, or that there was none.
+void printRepair(const sim::RepairReport& repair, std::ostream& out);
+/// The same where a repair was asked for.
+void printRepair(const OrganSurface& surface, std::ostream& out);
 
 /// "12,345"
 std::string grouped(std::size_t number);

@@ -4,9 +4,9 @@
 #include "app/run.h"
 
 #include "app/output_folder.h"
-#include "app/pose.h"
 #include "app/progress.h"
 #include "app/run_setup.h"
+#include "app/scene_player.h"
 #include "app/summary.h"
 #include "base/atomic_file.h"
 #include "gpu/gl.h"
@@ -52,19 +52,16 @@ std::string numbered(const char* format, int frame) {
 class Run {
 public:
     Run(RunParts& parts, OutputFolder& folder, const std::string& solver)
-        : parts_(parts), folder_(folder), frames_(parts.scene.frames()),
+        : parts_(parts), player_(parts), folder_(folder), frames_(parts.scene.frames()),
           frameTime_(1 / parts.scene.frameRate) {
         record_.scene = parts.scene;
-        record_.solver = parts.solver ? solver : "pose";
         record_.gl = parts.context->info();
-        record_.vertices = parts.surface.file.positions.size();
-        record_.faces = parts.surface.file.faces.size();
-        record_.lattice = &parts.lattice;
-        record_.layout = &parts.textures().layout();
-        record_.fixedNodes =
-            std::size_t(std::count(parts.setup.fixed.begin(), parts.setup.fixed.end(), true));
-        record_.step = parts.step;
-        record_.binding = &parts.binding;
+        record_.solver = "pose";
+        for (const auto& organ : parts.organs) {
+            record_.organs.push_back(organRecord(*organ, solver));
+            if (organ->solver)
+                record_.solver = solver;
+        }
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
@@ -73,21 +70,22 @@ public:
         if (output.sheetAt.empty())
             for (int i = 0, tiles = output.sheetColumns * output.sheetRows; i < tiles; ++i)
                 sheetFrames_.insert(std::max(1, int(std::lround((i + 1.0) * frames_ / tiles))));
-        camera_ = render::makeCamera(parts.scene.camera, parts.surface.metres.lowest(),
-                                     parts.surface.metres.highest(), double(output.width) / output.height);
+        camera_ = render::makeCamera(parts.scene.camera, parts.lowest(), parts.highest(),
+                                     double(output.width) / output.height);
     }
 
     /// All frames, until the end, an interruption or a state that is not finite (`record().end` says which).
     Status frames(const InterruptGuard& interrupt) {
         if (!surfaceFrames_.empty())
-            restSurface_ = parts_.renderer->readDeformedPositions(parts_.textures(), parts_.surfaceMapping());
-        SEROSA_TRY(writeSurface(0));
+            for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+                restSurfaces_.push_back(deformedPositions(i));
+        SEROSA_TRY(writeSurfaces(0));
         sample(0);
         Progress progress("frames", frames_);
         for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
             SEROSA_TRY(picture(frame));
-            SEROSA_TRY(writeSurface(frame));
+            SEROSA_TRY(writeSurfaces(frame));
             record_.framesDone = frame;
             if (frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted())
                 sample(frame);
@@ -109,49 +107,77 @@ public:
     const std::string& failure() const { return failure_; }
 
 private:
+    static OrganRecord organRecord(const OrganParts& parts, const std::string& solver) {
+        OrganRecord record;
+        record.solver = parts.solver ? solver : "pose";
+        record.vertices = parts.surface.file.positions.size();
+        record.faces = parts.surface.file.faces.size();
+        record.repair = parts.surface.repair;
+        record.lattice = &parts.lattice;
+        record.layout = &parts.textures().layout();
+        record.fixedNodes = std::size_t(std::count(parts.setup.fixed.begin(), parts.setup.fixed.end(), true));
+        record.step = parts.step;
+        record.binding = &parts.binding;
+        return record;
+    }
+
     int frameAt(double time) const { return std::clamp(int(std::lround(time / frameTime_)), 0, frames_); }
 
     void step(int frame) {
         Stopwatch watch(record_.times.steps);
-        if (!parts_.solver) {
-            const double share = double(frame) / frames_;
-            posed_ = bentState(parts_.lattice, share / parts_.scene.organs.front().pose->bendRadius);
-            posed_->step = frame;
-            parts_.uploaded->upload(*posed_);
-            return;
+        player_.advance();
+        ToolForce force{frame * frameTime_, {}};
+        for (const auto& organ : parts_.organs) {
+            if (!organ->solver)
+                continue;
+            const std::vector<glm::dvec3> impulses = organ->solver->takeToolImpulses();
+            if (force.forces.empty())
+                force.forces = impulses;
+            else
+                for (std::size_t i = 0; i < impulses.size(); ++i)
+                    force.forces[i] += impulses[i];
         }
-        parts_.solver->advance(parts_.step.stepsPerFrame);
-        ToolForce force{frame * frameTime_, parts_.solver->takeToolImpulses()};
         for (glm::dvec3& impulse : force.forces)
             impulse /= frameTime_;
         if (!force.forces.empty())
             record_.toolForces.push_back(std::move(force));
-        if (parts_.uploaded)
-            parts_.uploaded->upload(parts_.solver->state());
         glFinish();
     }
 
-    sim::LatticeState state() const {
-        return parts_.solver ? parts_.solver->state() : posed_ ? *posed_ : sim::restState(parts_.lattice);
-    }
-
     void sample(int frame) {
-        const sim::LatticeState now = state();
         const double time = frame * frameTime_;
-        const Displacement moved = largestDisplacement(parts_.lattice, now);
-        record_.stateHash = now.hash();
-        if (!moved.finite) {
-            record_.end = "not finite";
-            failure_ = "the position of node " + std::to_string(moved.node) + " is not finite " +
-                       sim::formatQuantity(time, sim::Dimension::time) + " into the run, or up to " +
-                       std::to_string(kSampleEvery) + " frames before: the pictures show what led to it";
-            return;
+        EnergySample sum{time, {}, 0};
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+            const OrganParts& organ = *parts_.organs[i];
+            const sim::LatticeState now = player_.state(i);
+            const Displacement moved = largestDisplacement(organ.lattice, now);
+            OrganRecord& record = record_.organs[i];
+            record.stateHash = now.hash();
+            if (!moved.finite) {
+                record_.end = "not finite";
+                failure_ = "the position of node " + std::to_string(moved.node) + inOrgan(i) +
+                           " is not finite " + sim::formatQuantity(time, sim::Dimension::time) +
+                           " into the run, or up to " + std::to_string(kSampleEvery) +
+                           " frames before: the pictures show what led to it";
+                continue;
+            }
+            sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
+            record.largestDisplacement = std::max(record.largestDisplacement, moved.largest);
+            if (!organ.solver)
+                continue;
+            const sim::Energies energies = sim::energies(organ.setup, now);
+            if (i == 0) {
+                sum.energies = energies;
+                continue;
+            }
+            sum.energies.kinetic += energies.kinetic;
+            sum.energies.elastic += energies.elastic;
+            sum.energies.gravitational += energies.gravitational;
         }
-        EnergySample energy{time, {}, moved.largest};
-        if (parts_.solver)
-            energy.energies = sim::energies(parts_.setup, now);
-        record_.largestDisplacement = std::max(record_.largestDisplacement, moved.largest);
-        record_.samples.push_back(energy);
+        if (record_.end == "not finite")
+            return;
+        record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
+        record_.samples.push_back(sum);
     }
 
     Status picture(int frame) {
@@ -182,40 +208,54 @@ private:
         return render::writePng(image, folder_.file(numbered("frame_%06d.png", frame)));
     }
 
-    /// The surface in the file's unit, frame and vertex order: the file's own positions plus the
+    /// " of NAME" where there are several organs.
+    std::string inOrgan(std::size_t organ) const {
+        return parts_.organs.size() > 1 ? " of " + parts_.scene.organs[organ].name : "";
+    }
+
+    std::vector<glm::dvec3> deformedPositions(std::size_t organ) {
+        return parts_.renderer->readDeformedPositions(parts_.organs[organ]->textures(),
+                                                      parts_.surfaceMapping(), organ);
+    }
+
+    /// The surfaces in their files' unit, axes and vertex order: the file's own positions plus the
     /// displacement, so that rest comes out as it went in.
-    Status writeSurface(int frame) {
+    Status writeSurfaces(int frame) {
         if (!surfaceFrames_.contains(frame))
             return {};
         Stopwatch watch(record_.times.files);
-        const auto deformed =
-            parts_.renderer->readDeformedPositions(parts_.textures(), parts_.surfaceMapping());
-        sim::TriangleMesh mesh = parts_.surface.file;
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            mesh.positions[i] += (deformed[i] - restSurface_[i]) / parts_.scene.organs.front().lengthUnit;
-        ++record_.surfacesWritten;
-        return sim::writeMesh(mesh, folder_.file(numbered("surface_%06d.ply", frame)));
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+            const sim::Organ& organ = parts_.scene.organs[i];
+            const std::string name =
+                parts_.organs.size() > 1 ? "surface_" + sim::organFileName(organ) + "_" : "surface_";
+            const sim::TriangleMesh mesh =
+                deformedFile(organ, parts_.organs[i]->surface, deformedPositions(i), restSurfaces_[i]);
+            ++record_.surfacesWritten;
+            SEROSA_TRY(sim::writeMesh(mesh, folder_.file(name + numbered("%06d.ply", frame))));
+        }
+        return {};
     }
 
     RunParts& parts_;
+    ScenePlayer player_;
     OutputFolder& folder_;
     int frames_;
     double frameTime_; // s
     render::CameraView camera_;
     RunRecord record_;
     std::set<int> surfaceFrames_, sheetFrames_;
-    std::vector<glm::dvec3> restSurface_; // m: the mapped surface at rest
-    std::optional<sim::LatticeState> posed_;
+    std::vector<std::vector<glm::dvec3>> restSurfaces_; // m: the mapped surfaces at rest
     std::vector<render::Image> tiles_;
     std::vector<std::string> captions_;
     std::string failure_;
 };
 
-void describeSetup(const RunParts& parts, std::ostream& out) {
-    const sim::Organ& organ = parts.scene.organs.front();
+void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const OrganParts& parts,
+                   std::ostream& out) {
     out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
-        << grouped(parts.surface.file.faces.size()) << " faces\n"
-        << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
+        << grouped(parts.surface.file.faces.size()) << " faces\n";
+    printRepair(parts.surface, out);
+    out << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
         << grouped(parts.lattice.cells.size()) << " cells, spacing "
         << shortNumber(1e3 * parts.lattice.spacing) << " mm\n";
     if (parts.solver)
@@ -223,13 +263,18 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
             << shortNumber(parts.step.margin) << ")\n";
-    for (const sim::Tool& tool : parts.scene.tools)
+    for (const sim::Tool& tool : scene.tools)
         if (tool.radius < kLeastToolSpacings * parts.lattice.spacing)
             out << "note: " << tool.name << " has a radius of " << shortNumber(1e3 * tool.radius)
                 << " mm; below " << kLeastToolSpacings << " spacings it slips between the lattice's nodes\n";
     if (parts.binding.tornEdgesFound > 0)
         out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
             << " left after flooding\n";
+}
+
+void describeSetup(const RunParts& parts, std::ostream& out) {
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
     out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
         << parts.context->info().renderer << "\n"
         << std::flush;

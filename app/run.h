@@ -13,19 +13,21 @@
 namespace serosa::app {
 
 struct RunOptions {
-    std::filesystem::path scene;     // either a scene file,
-    std::filesystem::path model;     // or a model
-    std::string lengthUnit;          // and its unit: "mm"
+    std::filesystem::path scene; // either a scene file,
+    std::filesystem::path model; // or a model
+    std::string lengthUnit;      // and its unit: "mm",
+    sim::UpAxis upAxis = sim::UpAxis::y;
+    bool repair = false;             // and whether to mend it
     std::string solver = "fragment"; // or "reference"
     gpu::GlChoice gl = gpu::GlChoice::automatic;
     int layout = -1;                  // SRS_LAYOUT_..., -1: by how full the grid is
     std::optional<int> frames;        // each of these replaces what the scene says
     std::optional<int> width, height; // pixels
     std::optional<sim::Mapping> mapping;
-    std::optional<std::size_t> nodes;
-    std::optional<double> spacing; // m
-    std::filesystem::path out;     // empty: the scene's or model's name with "-out", in the current folder
-    bool force = false;            // write into a folder that holds something
+    std::optional<std::size_t> nodes; // of each organ
+    std::optional<double> spacing;    // m
+    std::filesystem::path out;        // empty: the scene's or model's name with "-out", in the current folder
+    bool force = false;               // write into a folder that holds something
 };
 
 /// Runs and writes into the output folder; says on `out` what it does. SIGINT ends it after the frame in

@@ -12,7 +12,6 @@ namespace serosa::app {
 namespace {
 
 Status applyOverrides(const RunOptions& options, sim::Scene& scene) {
-    sim::Organ& organ = scene.organs.front();
     if (options.frames)
         scene.duration = *options.frames / scene.frameRate;
     if (options.width)
@@ -21,34 +20,64 @@ Status applyOverrides(const RunOptions& options, sim::Scene& scene) {
         scene.output.height = *options.height;
     if (options.mapping)
         scene.look.mapping = *options.mapping;
-    if (options.nodes) {
-        organ.nodes = *options.nodes;
-        organ.spacing = 0;
+    for (sim::Organ& organ : scene.organs) {
+        if (options.nodes) {
+            organ.nodes = *options.nodes;
+            organ.spacing = 0;
+        }
+        if (options.spacing)
+            organ.spacing = *options.spacing;
     }
-    if (options.spacing)
-        organ.spacing = *options.spacing;
     if (const auto problem = sim::findSceneProblem(scene))
         return Error{(problem->table.empty() ? "" : problem->table + ".") + problem->key + ": " +
                      problem->message};
     return {};
 }
 
-Status readSceneAndSurface(const RunOptions& options, RunParts& parts) {
+Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
+    const auto addOrgan = [&parts](OrganSurface surface) {
+        parts.organs.push_back(std::make_unique<OrganParts>());
+        parts.organs.back()->surface = std::move(surface);
+    };
     if (!options.scene.empty()) {
         SEROSA_ASSIGN(parts.scene, sim::readScene(options.scene));
-        SEROSA_ASSIGN(parts.surface, loadSurface(parts.scene.organs.front(), options.scene));
+        for (const sim::Organ& organ : parts.scene.organs) {
+            SEROSA_ASSIGN(OrganSurface surface, loadSurface(organ, options.scene));
+            addOrgan(std::move(surface));
+        }
     } else {
         sim::Organ organ;
         organ.model = options.model;
+        organ.upAxis = options.upAxis;
+        organ.repair = options.repair;
         SEROSA_ASSIGN(organ.lengthUnit, sim::parseLengthUnit(options.lengthUnit));
-        SEROSA_ASSIGN(parts.surface, loadSurface(organ, {}));
-        parts.scene = sim::defaultScene(options.model, organ.lengthUnit, parts.surface.metres);
+        SEROSA_ASSIGN(OrganSurface surface, loadSurface(organ, {}));
+        parts.scene = sim::defaultScene(options.model, organ.lengthUnit, surface.metres);
+        parts.scene.organs.front().upAxis = organ.upAxis;
+        parts.scene.organs.front().repair = organ.repair;
+        addOrgan(std::move(surface));
     }
     return applyOverrides(options, parts.scene);
 }
 
-Status makeSolver(const RunOptions& options, RunParts& parts) {
-    const bool pose = parts.scene.organs.front().pose.has_value();
+/// Lattice, fixed nodes and time step: all that needs no context.
+Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
+    SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres));
+    parts.setup.lattice = &parts.lattice;
+    parts.setup.tissue = organ.tissue;
+    parts.setup.gravity = scene.gravity;
+    parts.setup.tools = scene.tools;
+    SEROSA_ASSIGN(parts.setup.fixed, fixedNodes(organ, parts.lattice, parts.surface.metres, scene.file));
+    if (organ.pose) {
+        SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));
+    } else {
+        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, 1 / scene.frameRate));
+        parts.setup.timeStep = parts.step.timeStep;
+    }
+    return {};
+}
+
+Status makeSolver(const RunOptions& options, bool pose, OrganParts& parts) {
     if (pose || options.solver == "reference") {
         if (!pose)
             parts.solver = sim::makeReferenceSolver(parts.setup);
@@ -69,30 +98,47 @@ sim::Mapping RunParts::surfaceMapping() const {
     return scene.look.mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : scene.look.mapping;
 }
 
-Status prepareRun(const RunOptions& options, RunParts& parts) {
-    SEROSA_TRY(readSceneAndSurface(options, parts));
-    const sim::Organ& organ = parts.scene.organs.front();
-    SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres));
-    parts.setup.lattice = &parts.lattice;
-    parts.setup.tissue = organ.tissue;
-    parts.setup.gravity = parts.scene.gravity;
-    parts.setup.tools = parts.scene.tools;
-    SEROSA_ASSIGN(parts.setup.fixed,
-                  fixedNodes(organ, parts.lattice, parts.surface.metres, parts.scene.file));
-    if (organ.pose) {
-        SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));
-    } else {
-        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, 1 / parts.scene.frameRate));
-        parts.setup.timeStep = parts.step.timeStep;
+std::vector<const sim::StateTextures*> RunParts::textures() const {
+    std::vector<const sim::StateTextures*> all;
+    for (const auto& organ : organs)
+        all.push_back(&organ->textures());
+    return all;
+}
+
+glm::dvec3 RunParts::lowest() const {
+    glm::dvec3 bound = organs.front()->surface.metres.lowest();
+    for (const auto& organ : organs)
+        bound = glm::min(bound, organ->surface.metres.lowest());
+    return bound;
+}
+
+glm::dvec3 RunParts::highest() const {
+    glm::dvec3 bound = organs.front()->surface.metres.highest();
+    for (const auto& organ : organs)
+        bound = glm::max(bound, organ->surface.metres.highest());
+    return bound;
+}
+
+Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext) {
+    SEROSA_TRY(readSceneAndSurfaces(options, parts));
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        SEROSA_TRY(prepareOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i]));
+    SEROSA_ASSIGN(parts.context, makeContext ? makeContext(parts.scene) : gpu::createContext(options.gl));
+    for (std::size_t i = 0; i < parts.organs.size(); ++i) {
+        OrganParts& organ = *parts.organs[i];
+        SEROSA_TRY(makeSolver(options, parts.scene.organs[i].pose.has_value(), organ));
+        organ.binding = render::bindSurface(organ.lattice, organ.surface.metres, parts.surfaceMapping());
+        if (i > 0) {
+            SEROSA_TRY(parts.renderer->addOrgan(organ.lattice, organ.surface.metres, organ.binding,
+                                                organ.textures()));
+            continue;
+        }
+        SEROSA_ASSIGN(render::SurfaceRenderer renderer,
+                      render::SurfaceRenderer::create(organ.lattice, organ.surface.metres, organ.binding,
+                                                      organ.textures(), parts.scene.output.width,
+                                                      parts.scene.output.height));
+        parts.renderer.emplace(std::move(renderer));
     }
-    SEROSA_ASSIGN(parts.context, gpu::createContext(options.gl));
-    SEROSA_TRY(makeSolver(options, parts));
-    parts.binding = render::bindSurface(parts.lattice, parts.surface.metres, parts.surfaceMapping());
-    SEROSA_ASSIGN(render::SurfaceRenderer renderer,
-                  render::SurfaceRenderer::create(parts.lattice, parts.surface.metres, parts.binding,
-                                                  parts.textures(), parts.scene.output.width,
-                                                  parts.scene.output.height));
-    parts.renderer.emplace(std::move(renderer));
     return {};
 }
 

@@ -8,35 +8,55 @@
 #include "sim/solver.h"
 #include "sim/state_textures.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace serosa::app {
 
-struct RunParts {
-    sim::Scene scene;
+/// One organ of a run.
+struct OrganParts {
     OrganSurface surface;
     sim::Lattice lattice;
     sim::SolverSetup setup; // points at `lattice`
     sim::StableStep step;   // zero for a pose
     render::SurfaceBinding binding;
-    std::unique_ptr<gpu::Context> context;      // dies after all GL objects below
     std::unique_ptr<sim::Solver> solver;        // null for a pose
     std::optional<sim::StateTextures> uploaded; // where the solver has no textures of its own
-    std::optional<render::SurfaceRenderer> renderer;
+
+    OrganParts() = default;
+    OrganParts(const OrganParts&) = delete;
+    OrganParts& operator=(const OrganParts&) = delete;
+
+    const sim::StateTextures& textures() const { return uploaded ? *uploaded : *solver->textures(); }
+};
+
+struct RunParts {
+    sim::Scene scene;
+    std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
+    std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
+    std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
 
     RunParts() = default;
     RunParts(const RunParts&) = delete;
     RunParts& operator=(const RunParts&) = delete;
 
-    const sim::StateTextures& textures() const { return uploaded ? *uploaded : *solver->textures(); }
+    /// What the renderer draws from, one an organ.
+    std::vector<const sim::StateTextures*> textures() const;
+    /// Bounds of all organs at rest, m.
+    glm::dvec3 lowest() const;
+    glm::dvec3 highest() const;
     /// The basis that deformed surfaces are mapped with: one-to-one draws no detailed surface of its own.
     sim::Mapping surfaceMapping() const;
 };
 
-/// Fills `parts`, which must not move afterwards. Errors: all bad input, no context.
-Status prepareRun(const RunOptions& options, RunParts& parts);
+/// Makes the context once all that needs none is checked.
+using ContextMaker = std::function<Result<std::unique_ptr<gpu::Context>>(const sim::Scene&)>;
+
+/// Fills `parts`. Errors: all bad input, no context.
+/// \param makeContext empty: what options.gl says
+Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext = {});
 
 /// Folder that a run writes into where --out is not given.
 std::filesystem::path defaultOutputFolder(const RunOptions& options);

@@ -14,7 +14,7 @@ namespace serosa::app {
 
 namespace {
 
-/// What a run computes from a scene before its first step.
+/// What a run computes from an organ of a scene before its first step.
 struct Derived {
     OrganSurface surface;
     sim::Lattice lattice;
@@ -22,8 +22,7 @@ struct Derived {
     sim::StableStep step;
 };
 
-Result<Derived> derive(const sim::Scene& scene) {
-    const sim::Organ& organ = scene.organs.front();
+Result<Derived> derive(const sim::Scene& scene, const sim::Organ& organ) {
     Derived derived;
     SEROSA_ASSIGN(derived.surface, loadSurface(organ, scene.file));
     SEROSA_ASSIGN(derived.lattice, organLattice(organ, derived.surface.metres));
@@ -38,17 +37,29 @@ Result<Derived> derive(const sim::Scene& scene) {
     return derived;
 }
 
-void printDerived(const sim::Scene& scene, const Derived& derived, std::ostream& out) {
-    const sim::Organ& organ = scene.organs.front();
+Result<std::vector<Derived>> deriveAll(const sim::Scene& scene) {
+    std::vector<Derived> all;
+    for (const sim::Organ& organ : scene.organs) {
+        SEROSA_ASSIGN(Derived derived, derive(scene, organ));
+        all.push_back(std::move(derived));
+    }
+    return all;
+}
+
+void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream& out) {
     const sim::Lattice& lattice = derived.lattice;
     const glm::dvec3 size = derived.surface.metres.highest() - derived.surface.metres.lowest();
     const auto line = [&out](const char* name, const std::string& text) {
         out << std::left << std::setw(34) << name << text << "\n";
     };
     using sim::Dimension;
-    line("frames", std::to_string(scene.frames()));
     line("surface", grouped(derived.surface.file.positions.size()) + " vertices, " +
                         grouped(derived.surface.file.faces.size()) + " faces");
+    if (derived.surface.repair && !derived.surface.repair->changed())
+        line("repair", "nothing to mend");
+    if (derived.surface.repair)
+        for (const std::string& mended : derived.surface.repair->lines())
+            line("repair", mended);
     line("size", shortNumber(size.x) + " x " + shortNumber(size.y) + " x " + shortNumber(size.z) + " m");
     line("lattice nodes", grouped(lattice.nodeCount()) + ", " + grouped(derived.fixed) + " of them fixed");
     line("lattice cells", grouped(lattice.cells.size()));
@@ -67,28 +78,42 @@ void printDerived(const sim::Scene& scene, const Derived& derived, std::ostream&
 
 Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out) {
     SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file));
-    SEROSA_ASSIGN(const Derived derived, derive(scene));
-    out << file.string() << ": ok: " << scene.frames() << " frames, "
-        << grouped(derived.surface.file.faces.size()) << " faces, " << grouped(derived.lattice.nodeCount())
-        << " nodes, " << scene.tools.size() << " tools";
-    if (derived.step.stepsPerFrame > 0)
-        out << ", " << derived.step.stepsPerFrame << " steps a frame";
+    SEROSA_ASSIGN(const std::vector<Derived> organs, deriveAll(scene));
+    std::size_t faces = 0, nodes = 0;
+    int steps = 0;
+    for (const Derived& organ : organs) {
+        faces += organ.surface.file.faces.size();
+        nodes += organ.lattice.nodeCount();
+        steps += organ.step.stepsPerFrame;
+    }
+    out << file.string() << ": ok: " << scene.frames() << " frames, ";
+    if (organs.size() > 1)
+        out << organs.size() << " organs, ";
+    out << grouped(faces) << " faces, " << grouped(nodes) << " nodes, " << scene.tools.size() << " tools";
+    if (steps > 0)
+        out << ", " << steps << " steps a frame";
     out << "\n";
+    for (const Derived& organ : organs)
+        printRepair(organ.surface, out);
     return int(exitOk);
 }
 
 Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& out) {
     std::vector<sim::SceneValue> values;
     SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file, &values));
-    SEROSA_ASSIGN(const Derived derived, derive(scene));
+    SEROSA_ASSIGN(const std::vector<Derived> organs, deriveAll(scene));
     for (const sim::SceneValue& value : values) {
         const std::string source = value.line > 0 ? "line " + std::to_string(value.line) : "default";
         const bool sameText = value.written == value.value;
         out << std::left << std::setw(34) << value.path << " " << std::setw(9) << source << " " << value.value
             << (value.line > 0 && !sameText ? "  (" + value.written + ")" : "") << "\n";
     }
-    out << "\n";
-    printDerived(scene, derived, out);
+    out << "\n" << std::left << std::setw(34) << "frames" << scene.frames() << "\n";
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        if (organs.size() > 1)
+            out << "\n" << std::setw(34) << "organ" << scene.organs[i].name << "\n";
+        printDerived(scene.organs[i], organs[i], out);
+    }
     return int(exitOk);
 }
 

@@ -24,22 +24,37 @@ std::string wordOf(const char* table, const char* key, int index) {
     return sim::findSceneKey(table, key)->words.at(std::size_t(index));
 }
 
-Json organJson(const RunRecord& record) {
-    const sim::Organ& organ = record.scene.organs.front();
-    const sim::Tissue& tissue = organ.tissue;
-    return {{"name", organ.name},
-            {"model", organ.model.filename().string()},
-            {"metres_per_unit", organ.lengthUnit},
-            {"vertices", record.vertices},
-            {"faces", record.faces},
-            {"young_Pa", tissue.young},
-            {"poisson", tissue.poisson},
-            {"density_kg_m3", tissue.density},
-            {"damping_time_s", tissue.dampingTime},
-            {"air_drag_1_s", tissue.airDrag}};
+Json repairJson(const sim::RepairReport& repair) {
+    return {{"repeated_corner_faces_removed", repair.repeatedCornerFaces},
+            {"duplicate_faces_removed", repair.duplicateFaces},
+            {"faces_flipped", repair.flippedFaces},
+            {"shells_turned", repair.turnedShells},
+            {"holes_filled", repair.filledHoles},
+            {"faces_added", repair.addedFaces},
+            {"vertices_added", repair.addedVertices},
+            {"stray_vertices_removed", repair.strayVertices}};
 }
 
-Json latticeJson(const RunRecord& record) {
+Json organJson(const sim::Organ& organ, const OrganRecord& record) {
+    const sim::Tissue& tissue = organ.tissue;
+    Json json = {{"name", organ.name},
+                 {"model", organ.model.filename().string()},
+                 {"metres_per_unit", organ.lengthUnit},
+                 {"vertices", record.vertices},
+                 {"faces", record.faces},
+                 {"young_Pa", tissue.young},
+                 {"poisson", tissue.poisson},
+                 {"density_kg_m3", tissue.density},
+                 {"damping_time_s", tissue.dampingTime},
+                 {"air_drag_1_s", tissue.airDrag}};
+    if (organ.upAxis != sim::UpAxis::y)
+        json["up_axis"] = wordOf("organ", "up_axis", int(organ.upAxis));
+    if (record.repair)
+        json["repair"] = repairJson(*record.repair);
+    return json;
+}
+
+Json latticeJson(const OrganRecord& record) {
     const sim::Lattice& lattice = *record.lattice;
     const double fillSum =
         std::accumulate(lattice.cells.begin(), lattice.cells.end(), 0.0,
@@ -75,6 +90,23 @@ Json bindingJson(const render::SurfaceBinding& binding) {
             {"bytes_per_vertex", binding.bytesPerVertex}};
 }
 
+/// What a scene of one organ says at the top of the summary, together.
+Json organsJson(const RunRecord& record) {
+    Json organs = Json::array();
+    for (std::size_t i = 0; i < record.organs.size(); ++i) {
+        const OrganRecord& organ = record.organs[i];
+        Json json = organJson(record.scene.organs[i], organ);
+        json["solver"] = organ.solver;
+        json["lattice"] = latticeJson(organ);
+        json["step"] = stepJson(organ.step);
+        json["binding"] = bindingJson(*organ.binding);
+        json["largest_displacement_m"] = organ.largestDisplacement;
+        json["state_hash"] = organ.stateHash;
+        organs.push_back(std::move(json));
+    }
+    return organs;
+}
+
 Json toolsJson(const RunRecord& record) {
     Json tools = Json::array();
     for (std::size_t i = 0; i < record.scene.tools.size(); ++i) {
@@ -97,7 +129,10 @@ Json toolsJson(const RunRecord& record) {
 Json timingJson(const RunRecord& record) {
     const RunTimes& times = record.times;
     const double frames = std::max(1, record.framesDone);
-    const double steps = std::max(1.0, frames * record.step.stepsPerFrame);
+    int stepsPerFrame = 0;
+    for (const OrganRecord& organ : record.organs)
+        stepsPerFrame += organ.step.stepsPerFrame;
+    const double steps = std::max(1.0, frames * stepsPerFrame);
     const double simulated = record.framesDone / record.scene.frameRate;
     const double pictures = std::max(1, record.picturesWritten);
     return {{"ms_per_step", 1e3 * times.steps / steps},
@@ -112,6 +147,15 @@ Json timingJson(const RunRecord& record) {
 }
 
 } // namespace
+
+std::string RunRecord::stateHash() const {
+    if (organs.size() == 1)
+        return organs.front().stateHash;
+    std::string all;
+    for (const OrganRecord& organ : organs)
+        all += (all.empty() ? "" : "-") + organ.stateHash;
+    return all;
+}
 
 Displacement largestDisplacement(const sim::Lattice& lattice, const sim::LatticeState& state) {
     Displacement result;
@@ -142,34 +186,41 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
                             {"gravitational_J", sample.energies.gravitational},
                             {"largest_displacement_m", sample.largestDisplacement}});
     const sim::Scene& scene = record.scene;
-    return {{"schema", 1},
-            {"serosa", programVersion()},
-            {"parts", std::move(parts)},
-            {"gl",
-             {{"context", gpu::contextKindName(record.gl.kind)},
-              {"vendor", record.gl.vendor},
-              {"renderer", record.gl.renderer},
-              {"version", record.gl.version},
-              {"software", record.gl.software}}},
-            {"solver", record.solver},
-            {"mapping", wordOf("look", "mapping", int(scene.look.mapping))},
-            {"organ", organJson(record)},
-            {"lattice", latticeJson(record)},
-            {"step", stepJson(record.step)},
-            {"gravity_m_s2", vec(scene.gravity)},
-            {"frame_rate_Hz", scene.frameRate},
-            {"frames_asked", scene.frames()},
-            {"frames", record.framesDone},
-            {"end", record.end},
-            {"picture_size", {scene.output.width, scene.output.height}},
-            {"pictures", record.picturesWritten},
-            {"surfaces", record.surfacesWritten},
-            {"binding", bindingJson(*record.binding)},
-            {"largest_displacement_m", record.largestDisplacement},
-            {"energies", std::move(energies)},
-            {"tools", toolsJson(record)},
-            {"state_hash", record.stateHash},
-            {"timing", timingJson(record)}};
+    Json json = {{"schema", 1},
+                 {"serosa", programVersion()},
+                 {"parts", std::move(parts)},
+                 {"gl",
+                  {{"context", gpu::contextKindName(record.gl.kind)},
+                   {"vendor", record.gl.vendor},
+                   {"renderer", record.gl.renderer},
+                   {"version", record.gl.version},
+                   {"software", record.gl.software}}},
+                 {"solver", record.solver},
+                 {"mapping", wordOf("look", "mapping", int(scene.look.mapping))}};
+    const bool single = record.organs.size() == 1;
+    if (single) {
+        json["organ"] = organJson(scene.organs.front(), record.organs.front());
+        json["lattice"] = latticeJson(record.organs.front());
+        json["step"] = stepJson(record.organs.front().step);
+    } else {
+        json["organs"] = organsJson(record);
+    }
+    json["gravity_m_s2"] = vec(scene.gravity);
+    json["frame_rate_Hz"] = scene.frameRate;
+    json["frames_asked"] = scene.frames();
+    json["frames"] = record.framesDone;
+    json["end"] = record.end;
+    json["picture_size"] = {scene.output.width, scene.output.height};
+    json["pictures"] = record.picturesWritten;
+    json["surfaces"] = record.surfacesWritten;
+    if (single)
+        json["binding"] = bindingJson(*record.organs.front().binding);
+    json["largest_displacement_m"] = record.largestDisplacement;
+    json["energies"] = std::move(energies);
+    json["tools"] = toolsJson(record);
+    json["state_hash"] = record.stateHash();
+    json["timing"] = timingJson(record);
+    return json;
 }
 
 } // namespace serosa::app

@@ -6,6 +6,7 @@
 #include "render/surface_binding.h"
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
+#include "sim/mesh_repair.h"
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
@@ -34,23 +35,34 @@ struct RunTimes { // s of wall time
     double steps = 0, mapping = 0, draw = 0, files = 0, setup = 0, total = 0;
 };
 
-struct RunRecord {
-    sim::Scene scene;
+/// Of one organ; what is pointed at outlives the record.
+struct OrganRecord {
     std::string solver; // "fragment", "reference", "pose"
-    gpu::ContextInfo gl;
     std::size_t vertices = 0, faces = 0;
+    std::optional<sim::RepairReport> repair; // where it was asked for
     const sim::Lattice* lattice = nullptr;
     const sim::TextureLayout* layout = nullptr;
     std::size_t fixedNodes = 0;
     sim::StableStep step; // zero for a pose
     const render::SurfaceBinding* binding = nullptr;
-    int framesDone = 0, picturesWritten = 0, surfacesWritten = 0;
-    std::string end = "complete";   // or "interrupted", "not finite"
     double largestDisplacement = 0; // m, over the samples
-    std::vector<EnergySample> samples;
-    std::vector<ToolForce> toolForces;
     std::string stateHash;
+};
+
+struct RunRecord {
+    sim::Scene scene;
+    std::string solver; // of the first organ that is simulated; "pose" where none is
+    gpu::ContextInfo gl;
+    std::vector<OrganRecord> organs; // in the scene's order
+    int framesDone = 0, picturesWritten = 0, surfacesWritten = 0;
+    std::string end = "complete";      // or "interrupted", "not finite"
+    double largestDisplacement = 0;    // m, over the samples and organs
+    std::vector<EnergySample> samples; // sums over the organs
+    std::vector<ToolForce> toolForces; // sums over the organs
     RunTimes times;
+
+    /// Of all organs, joined by '-' where there are several.
+    std::string stateHash() const;
 };
 
 nlohmann::ordered_json summaryJson(const RunRecord& record);

@@ -11,10 +11,28 @@
 
 namespace serosa::render {
 
-struct SurfaceRenderer::Impl {
+namespace {
+
+struct DrawnOrgan {
     sim::Lattice placement; // spacing and origin only: metres from lattice units
     SurfacePasses surface;
     LatticeOverlay lattice;
+
+    static Result<DrawnOrgan> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, layout));
+        SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, layout));
+        sim::Lattice placement;
+        placement.spacing = lattice.spacing;
+        placement.origin = lattice.origin;
+        return DrawnOrgan{std::move(placement), std::move(surface), std::move(overlay)};
+    }
+};
+
+} // namespace
+
+struct SurfaceRenderer::Impl {
+    std::vector<DrawnOrgan> organs; // at least one
     ToolSpheres tools;
     gpu::Program backdrop;
     gpu::VertexArray empty;
@@ -49,42 +67,53 @@ SurfaceRenderer::~SurfaceRenderer() = default;
 Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                                 const SurfaceBinding& binding,
                                                 const sim::StateTextures& state, int width, int height) {
-    SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, state.layout()));
-    SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, state.layout()));
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
     SEROSA_ASSIGN(ToolSpheres tools, ToolSpheres::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
-    sim::Lattice placement;
-    placement.spacing = lattice.spacing;
-    placement.origin = lattice.origin;
-    return SurfaceRenderer(std::make_unique<Impl>(
-        Impl{std::move(placement), std::move(surface), std::move(overlay), std::move(tools),
-             std::move(backdrop), gpu::VertexArray("no attributes"), PictureTarget(width, height)}));
+    auto impl = std::make_unique<Impl>(Impl{{},
+                                            std::move(tools),
+                                            std::move(backdrop),
+                                            gpu::VertexArray("no attributes"),
+                                            PictureTarget(width, height)});
+    impl->organs.push_back(std::move(organ));
+    return SurfaceRenderer(std::move(impl));
 }
 
-void SurfaceRenderer::draw(const sim::StateTextures& state, const View& view) {
+Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                 const SurfaceBinding& binding, const sim::StateTextures& state) {
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+    impl_->organs.push_back(std::move(organ));
+    return {};
+}
+
+void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     Impl& in = *impl_;
+    SEROSA_CHECK(states.size() == in.organs.size(), "one state an organ");
     const Spheres tools = view.look.tools ? view.toolSpheres : Spheres{};
-    const Frame frame = makeFrame(in.placement, view.camera, view.light, view.look, tools, in.target.width(),
-                                  in.target.height());
+    std::vector<Frame> frames; // in the units of each lattice, of one view
+    for (const DrawnOrgan& organ : in.organs)
+        frames.push_back(makeFrame(organ.placement, view.camera, view.light, view.look, tools,
+                                   in.target.width(), in.target.height()));
     in.target.begin();
     glDisable(GL_DEPTH_TEST);
-    in.backdrop.set("u_size", frame.size);
+    in.backdrop.set("u_size", frames[0].size);
     in.backdrop.use();
     gpu::drawFullScreen(in.empty);
     glEnable(GL_DEPTH_TEST);
     const bool core = view.look.lattice && !view.look.surface; // hides the lines on the far side
-    if (core)
-        in.surface.draw(state, frame, SurfaceStage::nodes, sim::SurfaceColour::tissue, kCoreColour);
+    for (std::size_t i = 0; i < in.organs.size() && core; ++i)
+        in.organs[i].surface.draw(*states[i], frames[i], SurfaceStage::nodes, sim::SurfaceColour::tissue,
+                                  kCoreColour);
     glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
-    if (view.look.surface)
-        in.surface.draw(state, frame, stageOf(view.look.mapping), view.look.colour);
+    for (std::size_t i = 0; i < in.organs.size() && view.look.surface; ++i)
+        in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    in.tools.draw(frame);
-    if (view.look.lattice)
-        in.lattice.draw(state, frame,
-                        !core && view.look.colour == sim::SurfaceColour::dynamicNormal
-                            ? LatticeOverlay::Ink::dark
-                            : LatticeOverlay::Ink::light);
+    in.tools.draw(frames[0]);
+    for (std::size_t i = 0; i < in.organs.size() && view.look.lattice; ++i)
+        in.organs[i].lattice.draw(*states[i], frames[i],
+                                  !core && view.look.colour == sim::SurfaceColour::dynamicNormal
+                                      ? LatticeOverlay::Ink::dark
+                                      : LatticeOverlay::Ink::light);
     in.target.end();
 }
 
@@ -96,36 +125,48 @@ void SurfaceRenderer::show(int width, int height) const {
     impl_->target.show(width, height);
 }
 
-Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const sim::StateTextures& state,
+Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganStates& states,
                                const View& view) {
-    SEROSA_ASSIGN(SurfacePasses::Programs surface, impl_->surface.compile(library));
-    SEROSA_ASSIGN(gpu::Program lattice, LatticeOverlay::compile(library));
+    std::vector<SurfacePasses::Programs> surfaces;
+    std::vector<gpu::Program> lattices;
+    for (const DrawnOrgan& organ : impl_->organs) {
+        SEROSA_ASSIGN(SurfacePasses::Programs surface, organ.surface.compile(library));
+        surfaces.push_back(std::move(surface));
+        SEROSA_ASSIGN(gpu::Program lattice, LatticeOverlay::compile(library));
+        lattices.push_back(std::move(lattice));
+    }
     SEROSA_ASSIGN(gpu::Program tools, ToolSpheres::compile(library));
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(library));
     const auto exchange = [&] {
-        std::swap(impl_->surface.programs(), surface);
-        std::swap(impl_->lattice.program(), lattice);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            std::swap(impl_->organs[i].surface.programs(), surfaces[i]);
+            std::swap(impl_->organs[i].lattice.program(), lattices[i]);
+        }
         std::swap(impl_->tools.program(), tools);
         std::swap(impl_->backdrop, backdrop);
     };
     exchange();
-    std::vector<gpu::Program*> all = {&impl_->lattice.program(), &impl_->tools.program(), &impl_->backdrop};
-    for (auto& [key, program] : impl_->surface.programs())
-        all.push_back(&program);
+    std::vector<gpu::Program*> all = {&impl_->tools.program(), &impl_->backdrop};
+    for (DrawnOrgan& organ : impl_->organs) {
+        all.push_back(&organ.lattice.program());
+        for (auto& [key, program] : organ.surface.programs())
+            all.push_back(&program);
+    }
     for (gpu::Program* program : all)
         program->tolerateMismatches();
 
     View rehearsal = view;
     rehearsal.look.surface = rehearsal.look.lattice = rehearsal.look.tools = true;
     if (rehearsal.toolSpheres.empty())
-        rehearsal.toolSpheres.emplace_back(impl_->placement.origin, impl_->placement.spacing);
+        rehearsal.toolSpheres.emplace_back(impl_->organs[0].placement.origin,
+                                           impl_->organs[0].placement.spacing);
     for (const sim::Mapping mapping :
          {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
         for (const sim::SurfaceColour colour :
              {sim::SurfaceColour::tissue, sim::SurfaceColour::dynamicNormal}) {
             rehearsal.look.mapping = mapping;
             rehearsal.look.colour = colour;
-            draw(state, rehearsal);
+            draw(states, rehearsal);
         }
     std::string problems;
     for (gpu::Program* program : all)
@@ -142,26 +183,27 @@ Image SurfaceRenderer::readImage() const {
 }
 
 std::vector<glm::dvec3> SurfaceRenderer::readDeformedPositions(const sim::StateTextures& state,
-                                                               sim::Mapping mapping) {
+                                                               sim::Mapping mapping, std::size_t organ) {
     std::vector<glm::dvec3> metres;
     impl_->target.bind();
-    for (const glm::vec3& q : impl_->surface.capture(state, stageOf(mapping)).positions)
-        metres.push_back(impl_->placement.toWorld(q));
+    DrawnOrgan& drawn = impl_->organs.at(organ);
+    for (const glm::vec3& q : drawn.surface.capture(state, stageOf(mapping)).positions)
+        metres.push_back(drawn.placement.toWorld(q));
     return metres;
 }
 
 std::vector<glm::dvec3> SurfaceRenderer::readDeformedNormals(const sim::StateTextures& state,
                                                              sim::Mapping mapping) {
     impl_->target.bind();
-    const std::vector<glm::vec3> normals = impl_->surface.capture(state, stageOf(mapping)).normals;
+    const std::vector<glm::vec3> normals = impl_->organs[0].surface.capture(state, stageOf(mapping)).normals;
     return {normals.begin(), normals.end()};
 }
 
 void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage) {
     impl_->target.bind();
-    impl_->surface.drawDiscarded(state, stage == VertexStage::undeformed ? SurfaceStage::undeformed
-                                        : stage == VertexStage::constant ? SurfaceStage::constant
-                                                                         : SurfaceStage::corrected);
+    impl_->organs[0].surface.drawDiscarded(state, stage == VertexStage::undeformed ? SurfaceStage::undeformed
+                                                  : stage == VertexStage::constant ? SurfaceStage::constant
+                                                                                   : SurfaceStage::corrected);
 }
 
 std::size_t SurfaceRenderer::bytesPerVertex() {

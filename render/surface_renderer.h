@@ -1,6 +1,6 @@
 #pragma once
-// Draws an organ from its state textures: the detailed surface through a mapping of MS05 3.2-3.3, the
-// lattice's springs over it, the tools, a backdrop. Nothing is read back to draw; only the finished picture
+// Draws organs from their state textures: the detailed surfaces through a mapping of MS05 3.2-3.3, the
+// lattices' springs over them, the tools, a backdrop. Nothing is read back to draw; only the finished picture
 // is.
 
 #include "base/result.h"
@@ -28,6 +28,9 @@ struct View {
 /// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.
 enum class VertexStage { undeformed, constant, corrected };
 
+/// What each organ is drawn from, in the order in which they were added; not null.
+using OrganStates = std::vector<const sim::StateTextures*>;
+
 class SurfaceRenderer {
 public:
     /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it
@@ -40,21 +43,30 @@ public:
     SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
     ~SurfaceRenderer();
 
+    /// One more organ in the same picture; the arguments as for create. Draws from now on take a state more.
+    Status addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                    const SurfaceBinding& binding, const sim::StateTextures& state);
+
     /// Another size of the target, pixels; what was drawn is lost.
     void resize(int width, int height);
     /// Takes the drawing shaders from another source, and draws every way there is to see that they fit.
     /// Errors (compiler logs; inputs that do not fit, by name): the shaders in use stay.
-    Status reload(const gpu::ShaderLibrary& library, const sim::StateTextures& state, const View& view);
+    Status reload(const gpu::ShaderLibrary& library, const OrganStates& states, const View& view);
+    Status reload(const gpu::ShaderLibrary& library, const sim::StateTextures& state, const View& view) {
+        return reload(library, OrganStates{&state}, view);
+    }
 
     /// Draws a frame into the renderer's own multisampled target and resolves it.
-    void draw(const sim::StateTextures& state, const View& view);
+    void draw(const OrganStates& states, const View& view);
+    void draw(const sim::StateTextures& state, const View& view) { draw(OrganStates{&state}, view); }
     /// Copies the last drawn frame into framebuffer 0 (a window) of this size, pixels.
     void show(int width, int height) const;
     /// The last drawn frame, sRGB, top row first.
     Image readImage() const;
     /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback),
-    /// for surface files; `mapping` triangle or curvature.
-    std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping);
+    /// for surface files; `mapping` triangle or curvature. `state` is that of the organ of this number.
+    std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping,
+                                                  std::size_t organ = 0);
     /// Deformed unit normals, in mesh order, from the same stage.
     std::vector<glm::dvec3> readDeformedNormals(const sim::StateTextures& state, sim::Mapping mapping);
 

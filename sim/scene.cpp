@@ -27,6 +27,12 @@ bool FixedRegion::contains(const glm::dvec3& world) const {
     return false;
 }
 
+std::string organFileName(const Organ& organ) {
+    std::string name = organ.name;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
 int Scene::frames() const {
     return std::max(1, int(std::lround(std::min(duration * frameRate, kMostFrames))));
 }

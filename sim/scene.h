@@ -7,6 +7,7 @@
 #include "sim/material.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
+#include "sim/up_axis.h"
 
 #include <glm/glm.hpp>
 
@@ -40,6 +41,8 @@ struct Organ {
     std::filesystem::path model; // resolved against the scene file's folder
     int modelLine = 0;           // of the scene file, for messages; 0: none
     double lengthUnit = 0;       // m per file unit
+    UpAxis upAxis = UpAxis::y;   // of the file
+    bool repair = false;         // mend what sim/mesh_repair.h names
     std::size_t nodes = 20000;
     double spacing = 0; // m; 0: by nodes
     Tissue tissue;
@@ -49,10 +52,17 @@ struct Organ {
     std::optional<Pose> pose;
 };
 
+/// More lattices than this are no scene, but a mistake.
+constexpr std::size_t kMostOrgans = 8;
+
+/// The organ's name as a part of file names: blanks become '_'. Scenes of several organs allow letters,
+/// digits, blanks, '-' and '_', and no two with one file name.
+std::string organFileName(const Organ& organ);
+
 enum class Projection { perspective, orthographic };
 struct Camera {
     Projection projection = Projection::perspective;
-    std::optional<glm::dvec3> eye, target;  // m; default: framed on the organ
+    std::optional<glm::dvec3> eye, target;  // m; default: framed on the organs
     glm::dvec3 direction{-0.25, -0.15, -1}; // view direction where eye is not given
     glm::dvec3 up{0, 1, 0};
     double fieldOfView = 0.5;     // rad, vertical ("28.6 deg"), perspective
@@ -89,7 +99,7 @@ struct Scene {
     double frameRate = 60;           // Hz
     double duration = 2;             // s
     glm::dvec3 gravity{0, -9.81, 0}; // m/s2
-    std::vector<Organ> organs;       // exactly one in this version
+    std::vector<Organ> organs;       // one to kMostOrgans; they do not touch each other yet
     std::vector<Tool> tools;
     Camera camera;
     Light light;

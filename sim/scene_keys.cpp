@@ -4,6 +4,7 @@
 #include "sim/scene_keys.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/scene.h"
 
 #include <iomanip>
 #include <limits>
@@ -44,17 +45,24 @@ std::vector<SceneKey> makeKeys() {
                  "simulated time; rounded to whole frames, at least one"),
         quantity("", "gravity", Dim::acceleration, kAny, "[\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s2\"]",
                  "acceleration of gravity, y is up", Kind::quantity3),
-        plain("", "organ", Kind::tables, kAny, nullptr, "the organ; this version takes exactly one"),
+        plain("", "organ", Kind::tables, kAny, nullptr,
+              "the organs, one to eight; they move on their own and do not touch each other yet"),
         plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most four"),
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
         plain("", "look", Kind::table, kAny, "", "what is drawn"),
         plain("", "output", Kind::table, kAny, "", "what is written"),
 
-        plain("organ", "name", Kind::text, kAny, "\"organ\"", "what messages call it"),
+        plain("organ", "name", Kind::text, kAny, "\"organ\"",
+              "what messages and files call it; several organs need a name each"),
         plain("organ", "model", Kind::text, kAny, nullptr,
-              "closed surface: OBJ, PLY, OFF or STL; the path is relative to the scene file"),
+              "closed surface: OBJ, PLY, OFF, STL, VTK or TetGen (docs/import.md); the path is relative to "
+              "the scene file"),
         word("organ", "length_unit", unitNames(Dim::length), nullptr, "unit of the model's coordinates"),
+        word("organ", "up_axis", {"y", "x", "z", "-y", "-x", "-z"}, "\"y\"",
+             "axis of the model that points up; the model is turned, and deformed surfaces turned back"),
+        plain("organ", "repair", Kind::boolean, kAny, "false",
+              "mend winding, small holes, duplicate faces, stray vertices (docs/import.md)"),
         plain("organ", "nodes", Kind::integer, {8, 1e9}, "20000",
               "lattice nodes aimed at; not beside `spacing`"),
         quantity("organ", "spacing", Dim::length, kPositive, "", "lattice spacing, instead of `nodes`"),
@@ -101,9 +109,9 @@ std::vector<SceneKey> makeKeys() {
 
         word("camera", "projection", {"perspective", "orthographic"}, "\"perspective\"", "kind of camera"),
         quantity("camera", "eye", Dim::length, kAny, "",
-                 "where it stands; without it, it is framed on the organ", Kind::quantity3),
+                 "where it stands; without it, it is framed on all organs", Kind::quantity3),
         quantity("camera", "target", Dim::length, kAny, "",
-                 "what it looks at; without it, the organ's middle", Kind::quantity3),
+                 "what it looks at; without it, the middle of all organs", Kind::quantity3),
         plain("camera", "direction", Kind::number3, kAny, "[-0.25, -0.15, -1]",
               "where it looks to; not beside `eye`"),
         plain("camera", "up", Kind::number3, kAny, "[0, 1, 0]", "up in the picture"),
@@ -263,5 +271,6 @@ std::string sceneReference() {
 }
 
 static_assert(SRS_MAX_TOOLS == 4, "the meaning of [[tool]] names the limit");
+static_assert(kMostOrgans == 8, "the meaning of [[organ]] names the limit");
 
 } // namespace serosa::sim

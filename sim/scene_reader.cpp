@@ -5,6 +5,7 @@
 #include "sim/scene_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <fstream>
 #include <set>
@@ -135,6 +136,8 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     SEROSA_TRY(table.checkKeys());
     SEROSA_TRY(table.read("name", organ.name));
     SEROSA_TRY(readModel(table, folder, organ));
+    SEROSA_TRY(table.readWord("up_axis", organ.upAxis));
+    SEROSA_TRY(table.read("repair", organ.repair));
     if (table.has("nodes") && table.has("spacing"))
         return table.errorAt("spacing", "stands beside 'nodes': keep one of the two");
     if (table.has("spacing"))
@@ -255,6 +258,12 @@ Status readOutput(const SceneTable& table, Scene& scene) {
     return {};
 }
 
+bool namesAFile(const std::string& name) {
+    return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return std::isalnum(c) || c == ' ' || c == '-' || c == '_';
+    });
+}
+
 Status readAll(const SceneSource& source, const toml::table& content, const fs::path& folder, Scene& scene) {
     const SceneTable top(source, "", "", &content);
     // The version first: a file of another one would fail on its keys, with a message that misleads.
@@ -268,18 +277,24 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     SEROSA_TRY(top.read("gravity", scene.gravity));
 
     SEROSA_ASSIGN(const auto organs, top.tables("organ"));
+    if (organs.empty() || organs.size() > kMostOrgans)
+        return top.errorAt("organ", "the scene has " + std::to_string(organs.size()) + " organs, one to " +
+                                        std::to_string(kMostOrgans) + " are possible");
     std::set<std::string> names;
     for (std::size_t i = 0; i < organs.size(); ++i) {
         Organ organ;
-        SEROSA_TRY(readOrgan(source, *organs[i], "organ[" + std::to_string(i) + "]", folder, organ));
-        if (!names.insert(organ.name).second)
-            return SceneTable(source, "organ", "organ[" + std::to_string(i) + "]", organs[i])
-                .errorAt("name", inQuotes(organ.name) + " is the name of another organ already: name each");
+        const std::string path = "organ[" + std::to_string(i) + "]";
+        SEROSA_TRY(readOrgan(source, *organs[i], path, folder, organ));
+        const SceneTable table(source, "organ", path, organs[i]);
+        if (organs.size() > 1 && !namesAFile(organ.name))
+            return table.errorAt("name", inQuotes(organ.name) +
+                                             " names files of its own beside other organs: take 1 to 64 "
+                                             "letters, digits, blanks, '-' and '_'");
+        if (!names.insert(organFileName(organ)).second)
+            return table.errorAt("name",
+                                 inQuotes(organ.name) + " is the name of another organ already: name each");
         scene.organs.push_back(std::move(organ));
     }
-    if (scene.organs.size() != 1)
-        return top.errorAt("organ", "the scene has " + std::to_string(scene.organs.size()) +
-                                        " organs; this version takes exactly one");
 
     SEROSA_ASSIGN(const auto tools, top.tables("tool"));
     if (tools.size() > SRS_MAX_TOOLS)

@@ -9,7 +9,7 @@ namespace {
 
 TEST(Help, NamesEveryOptionItsUnitAndAnExample) {
     const TestFolder folder;
-    for (const char* command : {"run", "inspect", "phantom", "verify", "doctor", "scene"}) {
+    for (const char* command : {"run", "inspect", "repair", "phantom", "verify", "doctor", "scene"}) {
         const ChildResult help = runSerosa(folder.path(), {command, "--help"});
         EXPECT_EQ(help.exitCode, 0) << command;
         EXPECT_EQ(help.err, "") << command;
@@ -18,7 +18,7 @@ TEST(Help, NamesEveryOptionItsUnitAndAnExample) {
     const std::string run = runSerosa(folder.path(), {"run", "--help"}).out;
     for (const char* option :
          {"--model", "--length-unit", "--solver", "--gl", "--frames", "--size", "--mapping", "--out",
-          "--force", "--nodes", "--spacing", "--layout", "Examples", "Exit codes"})
+          "--force", "--nodes", "--spacing", "--layout", "--repair", "--up-axis", "Examples", "Exit codes"})
         EXPECT_NE(run.find(option), std::string::npos) << option;
     EXPECT_EQ(runSerosa(folder.path(), {"--version"}).out.rfind("serosa 0.", 0), 0u);
 }
@@ -31,6 +31,55 @@ TEST(Inspect, SaysWhatTheMeshIs) {
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_NE(result.out.find("(1 solid, 0 cavities)"), std::string::npos) << result.out;
     EXPECT_NE(result.out.find("lattice"), std::string::npos) << result.out;
+}
+
+TEST(Repair, MendsSaysWhatAndLeavesGoodFilesAsTheyAre) {
+    const TestFolder folder;
+    ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
+    const ChildResult good = runSerosa(folder.path(), {"repair", "ball.ply", "-o", "good.ply"});
+    EXPECT_EQ(good.exitCode, 0) << good.err;
+    EXPECT_EQ(good.out.rfind("repair: nothing to mend\n", 0), 0u) << good.out;
+    EXPECT_EQ(readWhole(folder.path() / "ball.ply"), readWhole(folder.path() / "good.ply"));
+
+    const std::string inward = "OFF\n5 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n9 9 9\n"
+                               "3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n";
+    folder.write("inward.off", inward);
+    const ChildResult refused = runSerosa(folder.path(), {"inspect", "inward.off"});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("inverted"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("--repair"), std::string::npos) << refused.err;
+    const ChildResult inspected = runSerosa(folder.path(), {"inspect", "inward.off", "--repair"});
+    EXPECT_EQ(inspected.exitCode, 0) << inspected.err;
+    EXPECT_NE(inspected.out.find("repair: flipped 4 faces"), std::string::npos) << inspected.out;
+    EXPECT_NE(inspected.out.find("repair: removed 1 stray vertex"), std::string::npos) << inspected.out;
+    const ChildResult mended = runSerosa(folder.path(), {"repair", "inward.off", "-o", "outward.off"});
+    EXPECT_EQ(mended.exitCode, 0) << mended.err;
+    EXPECT_EQ(readWhole(folder.path() / "outward.off"),
+              "OFF\n4 4 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    EXPECT_EQ(runSerosa(folder.path(), {"repair", "inward.off", "-o", "outward.off"}).exitCode, 2);
+    EXPECT_EQ(runSerosa(folder.path(), {"repair", "inward.off", "-o", "outward.off", "--force"}).exitCode, 0);
+}
+
+TEST(Repair, RefusesWhatItDoesNotMend) {
+    const TestFolder folder;
+    folder.write("open.off", "OFF\n4 2 0\n0 0 0\n10 0 0\n0 10 0\n0 0 10\n3 0 2 1\n3 0 1 3\n");
+    const auto before = folder.names();
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"repair", "open.off", "-o", "new.off"},
+          std::vector<std::string>{"repair", "gone.off", "-o", "new.off"},
+          std::vector<std::string>{"repair", "open.off", "-o", "."},
+          std::vector<std::string>{"inspect", "open.off", "--repair"},
+          std::vector<std::string>{"run", "--model", "open.off", "--length-unit", "mm", "--repair"},
+          std::vector<std::string>{"run", "--model", "open.off", "--length-unit", "mm", "--up-axis", "w"},
+          std::vector<std::string>{"run", "open.toml", "--repair"},
+          std::vector<std::string>{"run", "open.toml", "--up-axis", "z"}}) {
+        const ChildResult result = runSerosa(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, 2) << result.out;
+        EXPECT_EQ(result.errorLines(), 1u) << result.err;
+        EXPECT_EQ(folder.names(), before);
+    }
+    const ChildResult plain = runSerosa(folder.path(), {"inspect", "open.off"});
+    EXPECT_EQ(plain.err.find("--repair"), std::string::npos) << "a hint that does not help: " << plain.err;
 }
 
 TEST(SceneCommands, CheckAndExplain) {

@@ -32,8 +32,8 @@ TEST_F(GlDoctor, ReportsEachKindAndWhatAutomaticTakes) {
     std::ostringstream out;
     EXPECT_EQ(runDoctor(out), exitOk);
     const std::string text = out.str();
-    for (const char* part : {"egl (", "egl-device (", "osmesa (", "renderer:", "GL_MAX_TEXTURE_SIZE",
-                             "additive blending of RGBA32F", "--gl auto takes "})
+    for (const char* part : {"egl (", "egl-device (", "osmesa (", "window (", "renderer:",
+                             "GL_MAX_TEXTURE_SIZE", "additive blending of RGBA32F", "--gl auto takes "})
         EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in\n" << text;
     const auto context = gpu::createContext(gpu::GlChoice::automatic);
     ASSERT_TRUE(context.ok());
@@ -44,13 +44,30 @@ TEST_F(GlDoctor, ReportsEachKindAndWhatAutomaticTakes) {
 }
 
 TEST_F(GlDoctor, WithoutAnyContextSaysWhatToDoAndReturns5) {
-    const ScopedVariable off("SEROSA_GL_DISABLE", "egl,egl-device,osmesa");
+    const ScopedVariable off("SEROSA_GL_DISABLE", "egl,egl-device,osmesa,window");
     std::ostringstream out;
     EXPECT_EQ(runDoctor(out), 5);
     const std::string text = out.str();
     EXPECT_EQ(text.find(": available"), std::string::npos) << text;
     EXPECT_NE(text.find("switched off by SEROSA_GL_DISABLE"), std::string::npos) << text;
     EXPECT_NE(text.find("apt install libegl1 libegl-mesa0 libosmesa6"), std::string::npos) << text;
+}
+
+TEST_F(GlDoctor, WithoutADisplayTheWindowIsNoError) {
+    // GLFW stays connected to a display that another test of this process has opened.
+    const ScopedVariable off("SEROSA_GL_DISABLE", "window");
+    std::ostringstream out;
+    EXPECT_EQ(runDoctor(out), exitOk);
+    const std::string text = out.str();
+    EXPECT_NE(text.find("window (a window of GLFW, which needs a display): not available"), std::string::npos)
+        << text;
+}
+
+TEST_F(GlDoctor, AWindowAloneIsNotEnough) {
+    const ScopedVariable off("SEROSA_GL_DISABLE", "egl,egl-device,osmesa");
+    std::ostringstream out;
+    EXPECT_EQ(runDoctor(out), 5);
+    EXPECT_EQ(out.str().find("--gl window"), std::string::npos) << out.str();
 }
 
 TEST_F(GlDoctor, WithOneKindLeftSaysThatAutomaticTakesIt) {

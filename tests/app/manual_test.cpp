@@ -168,7 +168,7 @@ TEST(Completion, BashAndFishOfferTheCommandsAndOptionsOfTheHelp) {
 
 TEST(Completion, BashOffersValuesAndFiles) {
     using Words = std::set<std::string>;
-    EXPECT_EQ(bashOffers("serosa r"), Words{"run"});
+    EXPECT_EQ(bashOffers("serosa r"), (Words{"repair", "run"}));
     EXPECT_EQ(bashOffers("serosa run --gl egl"), (Words{"egl", "egl-device"}));
     EXPECT_EQ(bashOffers("serosa run --gl = os"), Words{"osmesa"}); // as bash splits --gl=os
     EXPECT_EQ(bashOffers("serosa run --out /usr/shar"), Words{"/usr/share"});

@@ -2,6 +2,8 @@
 // disk.
 
 #include "sim/mesh_reader.h"
+#include "sim/mesh_writer.h"
+#include "sim/up_axis.h"
 #include "tests/app/child.h"
 
 #include <gtest/gtest.h>
@@ -155,6 +157,110 @@ TEST_F(GlRun, FullDiskLeavesNothing) {
     EXPECT_EQ(phantom.exitCode, 2) << phantom.err;
     EXPECT_EQ(phantom.errorLines(), 1u) << phantom.err;
     EXPECT_EQ(folder_.names(), before);
+}
+
+// An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.
+TEST_F(GlRun, SeveralOrgansMoveInLockstep) {
+    const std::string organ = "model = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
+                              "[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.3\n";
+    const std::string scene = readWhole(folder_.path() / "ball.toml");
+    const std::string rest = scene.substr(scene.find("[[tool]]"));
+    folder_.write("two.toml", "schema = 1\n[[organ]]\nname = \"left one\"\n" + organ +
+                                  "[[organ]]\nname = \"stiff\"\n" + organ +
+                                  "[organ.tissue]\nyoung = \"20 kPa\"\n" + rest);
+    folder_.write("stiff.toml",
+                  "schema = 1\n[[organ]]\n" + organ + "[organ.tissue]\nyoung = \"20 kPa\"\n" + rest);
+    const auto runScene = [&](const std::string& name) {
+        return serosa({"run", name + ".toml", "--frames", "6", "--gl", glChoice(), "--out", name});
+    };
+    for (const char* name : {"two", "stiff"}) {
+        const ChildResult result = runScene(name);
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+    }
+    ASSERT_EQ(run("soft").exitCode, 0);
+    const nlohmann::json two = summary("two"), soft = summary("soft"), stiff = summary("stiff");
+    ASSERT_EQ(two["organs"].size(), 2u);
+    EXPECT_EQ(two["organs"][0]["state_hash"], soft["state_hash"]);
+    EXPECT_EQ(two["organs"][1]["state_hash"], stiff["state_hash"]);
+    EXPECT_EQ(two["organs"][0]["step"], soft["step"]);
+    EXPECT_EQ(two["organs"][1]["step"], stiff["step"]);
+    EXPECT_NE(soft["step"]["steps_per_frame"], stiff["step"]["steps_per_frame"]);
+    EXPECT_FALSE(two.contains("organ"));
+    const auto sum = [](const nlohmann::json& json) {
+        return json["energies"].back()["elastic_J"].get<double>();
+    };
+    EXPECT_NEAR(sum(two), sum(soft) + sum(stiff), 1e-12);
+    const auto force = [](const nlohmann::json& json) {
+        return json["tools"][0]["force"][5]["N"][1].get<double>();
+    };
+    EXPECT_NEAR(force(two), force(soft) + force(stiff), 1e-9);
+    EXPECT_EQ(written("two"), (std::set<std::string>{
+                                  "frame_000003.png", "frame_000006.png", "contact_sheet.png",
+                                  "surface_left_one_000000.ply", "surface_left_one_000006.ply",
+                                  "surface_stiff_000000.ply", "surface_stiff_000006.ply", "summary.json"}));
+    EXPECT_EQ(readWhole(folder_.path() / "two" / "surface_left_one_000006.ply"),
+              readWhole(folder_.path() / "soft" / "surface_000006.ply"));
+    EXPECT_EQ(readWhole(folder_.path() / "two" / "surface_stiff_000006.ply"),
+              readWhole(folder_.path() / "stiff" / "surface_000006.ply"));
+}
+
+// The same body in a file whose z points up: the same states and pictures, and surfaces in the file's axes.
+TEST_F(GlRun, TurnsAModelWhoseZIsUp) {
+    ASSERT_EQ(run("a").exitCode, 0);
+    auto turned = sim::readMesh(folder_.path() / "ball.ply");
+    ASSERT_TRUE(turned.ok());
+    for (glm::dvec3& position : turned->positions)
+        position = sim::fileFromWorld(sim::UpAxis::z, position);
+    ASSERT_TRUE(sim::writeMesh(*turned, folder_.path() / "turned.ply").ok());
+    std::string scene = readWhole(folder_.path() / "ball.toml");
+    scene.replace(scene.find("ball.ply"), 8, "turned.ply");
+    scene.insert(scene.find("nodes ="), "up_axis = \"z\"\n");
+    folder_.write("turned.toml", scene);
+    const ChildResult result =
+        serosa({"run", "turned.toml", "--frames", "6", "--gl", glChoice(), "--out", "b"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(summary("b")["state_hash"], summary("a")["state_hash"]);
+    EXPECT_EQ(summary("b")["organ"]["up_axis"], "z");
+    EXPECT_EQ(readWhole(folder_.path() / "b" / "frame_000006.png"),
+              readWhole(folder_.path() / "a" / "frame_000006.png"));
+    const auto rest = sim::readMesh(folder_.path() / "b" / "surface_000000.ply");
+    const auto pressed = sim::readMesh(folder_.path() / "b" / "surface_000006.ply");
+    const auto expected = sim::readMesh(folder_.path() / "a" / "surface_000006.ply");
+    ASSERT_TRUE(rest.ok() && pressed.ok() && expected.ok());
+    EXPECT_EQ(rest->positions, turned->positions);
+    for (std::size_t i = 0; i < expected->positions.size(); ++i)
+        ASSERT_EQ(sim::worldFromFile(sim::UpAxis::z, pressed->positions[i]), expected->positions[i]);
+}
+
+TEST_F(GlRun, RepairsOnlyWhenAsked) {
+    auto broken = sim::readMesh(folder_.path() / "ball.ply");
+    ASSERT_TRUE(broken.ok());
+    broken->faces.erase(broken->faces.begin() + 9);
+    std::swap(broken->faces[3].x, broken->faces[3].y);
+    ASSERT_TRUE(sim::writeMesh(*broken, folder_.path() / "broken.ply").ok());
+    std::string scene = readWhole(folder_.path() / "ball.toml");
+    scene.replace(scene.find("ball.ply"), 8, "broken.ply");
+    folder_.write("broken.toml", scene);
+    const std::vector<std::string> arguments{"run",  "broken.toml", "--frames", "6",
+                                             "--gl", glChoice(),    "--out",    "b"};
+    const ChildResult refused = serosa(arguments);
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("--repair"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("broken.toml:3: "), std::string::npos) << refused.err;
+    scene.insert(scene.find("nodes ="), "repair = true\n");
+    folder_.write("broken.toml", scene);
+    const ChildResult mended = serosa(arguments);
+    ASSERT_EQ(mended.exitCode, 0) << mended.err;
+    EXPECT_NE(mended.out.find("repair: filled 1 hole with 1 face\n"), std::string::npos) << mended.out;
+    const nlohmann::json json = summary("b");
+    EXPECT_EQ(json["organ"]["repair"]["holes_filled"], 1);
+    EXPECT_EQ(json["organ"]["repair"]["faces_flipped"], 1);
+    ASSERT_EQ(run("a").exitCode, 0);
+    EXPECT_FALSE(summary("a")["organ"].contains("repair"));
+    const std::string document = readWhole(fs::path(SEROSA_SOURCE_DIR) / "docs" / "cli.md");
+    for (const auto& [key, value] : json["organ"]["repair"].items())
+        EXPECT_NE(document.find("`" + key + "`"), std::string::npos)
+            << "docs/cli.md does not explain " << key;
 }
 
 TEST_F(GlRun, BendsByItsPose) {

@@ -138,6 +138,37 @@ TEST_F(GlProgram, UnknownNamesAndOtherTypesAreBrokenPromises) {
     EXPECT_DEATH(program->set("u_four", three), "has 4 elements, 3 were given");
 }
 
+TEST_F(GlProgram, MismatchesOfAnEditedSourceAreKeptForAMessage) {
+    auto program = create(
+        "uniform vec4 u_value; uniform vec4 u_four[4]; uniform float u_other; uniform sampler2D t_never;\n"
+        "out vec4 o_value;\nvoid main() { o_value = u_value + u_four[3] + u_other + "
+        "texelFetch(t_never, ivec2(0), 0); }\n");
+    ASSERT_TRUE(program.ok()) << program.error().message;
+    program->tolerateMismatches();
+    program->set("u_valu", 1.0f).set("u_value", 1.0f);
+    const std::vector<glm::vec4> three(3);
+    program->set("u_four", three);
+    draw(*program); // does not abort
+    const std::string name = "pass.vert + a.frag";
+    EXPECT_EQ(program->takeMismatches(),
+              (std::vector<std::string>{name + " has no input \"u_valu\"",
+                                        name + ": input \"t_never\" was never set",
+                                        name + ": input \"u_four\" has 4 elements, 3 were given",
+                                        name + ": input \"u_other\" was never set",
+                                        name + ": input \"u_value\" is of another type in the shader"}));
+    EXPECT_TRUE(program->takeMismatches().empty()) << "taken once";
+}
+
+TEST_F(GlProgram, ArraysOfSamplersAreAnErrorOfTheSource) {
+    const auto program =
+        create("uniform sampler2D t_two[2]; out vec4 o_value;\n"
+               "void main() { o_value = texelFetch(t_two[0], ivec2(0), 0) + texelFetch(t_two[1], "
+               "ivec2(0), 0); }\n");
+    ASSERT_FALSE(program.ok());
+    EXPECT_NE(program.error().message.find("t_two: arrays of samplers"), std::string::npos)
+        << program.error().message;
+}
+
 TEST_F(GlProgram, CompileErrorsNameTheIncludeWithNumberedSource) {
     folder.write("spring.glsl", "// springs\nfloat force(float x) {\n    return x * stiffnes;\n}\n");
     const auto program =

@@ -173,6 +173,46 @@ TEST_F(GlSurfaceRenderer, ToolHidesWhatIsBehindItAndLatticeLinesAreThin) {
     EXPECT_LT(lines, 0.5);
 }
 
+/// A twin of the fixture's ball in the same renderer, its centre moved by `by`; the picture of both.
+class GlTwoOrgans : public GlSurfaceRenderer {
+protected:
+    Image drawBoth(const glm::dvec3& by, bool twinFirst) {
+        sim::Lattice lattice = lattice_;
+        lattice.origin += by;
+        sim::TriangleMesh mesh = mesh_;
+        for (glm::dvec3& position : mesh.positions)
+            position += by;
+        const auto make = [&](const sim::Lattice& l, const sim::TriangleMesh& m) {
+            return SurfaceRenderer::create(l, m, bindSurface(l, m, sim::Mapping::curvature), *state_, kSize,
+                                           kSize);
+        };
+        auto renderer = twinFirst ? make(lattice, mesh) : make(lattice_, mesh_);
+        EXPECT_TRUE(renderer.ok());
+        const sim::Lattice& l = twinFirst ? lattice_ : lattice;
+        const sim::TriangleMesh& m = twinFirst ? mesh_ : mesh;
+        EXPECT_TRUE(renderer->addOrgan(l, m, bindSurface(l, m, sim::Mapping::curvature), *state_).ok());
+        renderer->draw(OrganStates{&*state_, &*state_}, view_);
+        const auto positions = renderer->readDeformedPositions(*state_, sim::Mapping::curvature, 1);
+        EXPECT_LE(glm::distance(positions[7], m.positions[7]), 2e-6 * kRadius);
+        return renderer->readImage();
+    }
+};
+
+TEST_F(GlTwoOrgans, TheNearerHidesTheOther) {
+    const Image alone = draw();
+    // Seen along z under parallel light, a twin in front or behind looks like the ball alone.
+    for (const double z : {-2.5 * kRadius, 2.5 * kRadius})
+        for (const bool twinFirst : {false, true})
+            EXPECT_LT(share(drawBoth({0, 0, z}, twinFirst), alone, 12), 2e-3) << z << " " << twinFirst;
+    // Beside it, both are seen, whichever was added first.
+    const glm::dvec3 aside(0, 0.4 * kRadius, -2.5 * kRadius); // above, where it is lit
+    const Image both = drawBoth(aside, false);
+    const double disc = std::numbers::pi * std::pow(kRadius / kHeight, 2);
+    const double lens = 2 * std::acos(0.2) - 0.2 * std::sqrt(4 - 0.16); // of r^2, centres 0.4 r apart
+    EXPECT_NEAR(share(both, alone, 12), disc * (1 - lens / std::numbers::pi), 0.1 * disc);
+    EXPECT_LT(share(both, drawBoth(aside, true), 2), 1e-6);
+}
+
 TEST_F(GlSurfaceRenderer, SurfaceFilesAreInMeshOrderAndMetres) {
     for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
         const std::vector<glm::dvec3> positions = renderer_->readDeformedPositions(*state_, mapping);

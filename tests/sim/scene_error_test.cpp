@@ -25,6 +25,9 @@ std::vector<BadScene> badScenes() {
     const auto tool = [](const std::string& lines) { return kMinimal + "[[tool]]\n" + lines + "\n"; };
     const auto camera = [](const std::string& lines) { return kMinimal + "[camera]\n" + lines + "\n"; };
     const auto output = [](const std::string& line) { return kMinimal + "[output]\n" + line + "\n"; };
+    std::string nineOrgans;
+    for (int i = 0; i < 9; ++i)
+        nineOrgans += kOrgan + "name = \"" + std::to_string(i) + "\"\n";
     std::string tooManyTools = kMinimal;
     for (int i = 0; i < 5; ++i)
         tooManyTools += "[[tool]]\n" + kKeys;
@@ -46,8 +49,13 @@ std::vector<BadScene> badScenes() {
         {"UnknownFarKey", top("zzzzzzzz = 1"), "2:1", "known: schema"},
         {"NoOrgan", "schema = 1\n", "", "'organ' is missing"},
         {"OrganOnce", "schema = 1\n[organ]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\n", "2:", "[[organ]]"},
-        {"TwoOrgans", "schema = 1\n" + kOrgan + "name = \"a\"\n" + kOrgan + "name = \"b\"\n", "",
-         "exactly one"},
+        {"NoOrgans", "schema = 1\norgan = []\n", "2:", "0 organs, one to 8"},
+        {"NineOrgans", "schema = 1\n" + nineOrgans, "", "9 organs, one to 8"},
+        {"NamesOneFile", "schema = 1\n" + kOrgan + "name = \"a b\"\n" + kOrgan + "name = \"a_b\"\n",
+         "9:", "name of another"},
+        {"NameNoFile", "schema = 1\n" + kOrgan + "name = \"a/b\"\n" + kOrgan, "5:", "letters, digits"},
+        {"UnknownAxis", kMinimal + "up_axis = \"w\"\n", "5:", "up_axis"},
+        {"RepairIsNoFlag", kMinimal + "repair = \"yes\"\n", "5:", "true or false"},
         {"TwoOrgansOneName", "schema = 1\n" + kOrgan + kOrgan, "5:", "name of another"},
         {"NoModel", "schema = 1\n[[organ]]\nlength_unit = \"mm\"\n", "2:", "model' is missing"},
         {"NoUnit", "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\n", "2:", "length_unit' is missing"},

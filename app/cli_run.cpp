@@ -1,0 +1,239 @@
+// See app/cli_run.h.
+
+#include "app/cli_run.h"
+
+#include "app/view.h"
+#include "shaders/shared_constants.h"
+#include "sim/quantity.h"
+#include "sim/scene_keys.h"
+#include "sim/suggest.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+namespace serosa::app {
+
+namespace {
+
+struct RunArguments {
+    std::string scene, model, lengthUnit, solver = "fragment", gl = "auto", size, mapping, out, spacing,
+                                          layout = "auto";
+    int frames = 0;
+    std::string upAxis;
+    std::size_t nodes = 0;
+    bool force = false, repair = false;
+};
+
+Result<glm::ivec2> parseSize(const std::string& text) {
+    glm::ivec2 size(0);
+    char rest = 0;
+    if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2)
+        return Error{"--size: " + sim::inQuotes(text) +
+                     " is not a size: write width x height in pixels, such as 960x540"};
+    const sim::ValueRange range = sim::findSceneKey("output", "size")->range;
+    if (!range.holds(size.x) || !range.holds(size.y))
+        return Error{"--size: " + sim::inQuotes(text) + ": each side goes " + range.text() + " pixels"};
+    return size;
+}
+
+Result<RunOptions> runOptions(const std::string& command, const RunArguments& given) {
+    RunOptions options;
+    if (given.scene.empty() == given.model.empty())
+        return Error{given.scene.empty()
+                         ? command +
+                               " needs a scene file, or --model FILE with --length-unit U (see 'serosa " +
+                               command + " --help')"
+                         : command + " takes a scene file or --model, not both"};
+    if (!given.model.empty() && given.lengthUnit.empty())
+        return Error{"--model needs --length-unit: a mesh file has no unit (mm, cm, m, um, in)"};
+    if (given.model.empty() && !given.lengthUnit.empty())
+        return Error{"--length-unit belongs to --model; a scene file says length_unit"};
+    if (given.model.empty() && given.repair)
+        return Error{"--repair belongs to --model; a scene file says repair = true"};
+    if (given.model.empty() && !given.upAxis.empty())
+        return Error{"--up-axis belongs to --model; a scene file says up_axis"};
+    options.scene = given.scene;
+    options.model = given.model;
+    options.lengthUnit = given.lengthUnit;
+    options.repair = given.repair;
+    if (!given.upAxis.empty()) {
+        SEROSA_ASSIGN(const int axis,
+                      wordIndex("--up-axis", given.upAxis, sim::findSceneKey("organ", "up_axis")->words));
+        options.upAxis = sim::UpAxis(axis);
+    }
+    SEROSA_TRY(wordIndex("--solver", given.solver, {"fragment", "reference"}));
+    options.solver = given.solver;
+    SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
+    SEROSA_ASSIGN(const int layout, wordIndex("--layout", given.layout, {"auto", "grid", "rows"}));
+    options.layout = layout == 0 ? -1 : layout == 1 ? SRS_LAYOUT_GRID : SRS_LAYOUT_ROWS;
+    if (given.frames > 0)
+        options.frames = given.frames;
+    if (!given.size.empty()) {
+        SEROSA_ASSIGN(const glm::ivec2 size, parseSize(given.size));
+        options.width = size.x;
+        options.height = size.y;
+    }
+    if (!given.mapping.empty()) {
+        SEROSA_ASSIGN(const int mapping,
+                      wordIndex("--mapping", given.mapping, sim::findSceneKey("look", "mapping")->words));
+        options.mapping = sim::Mapping(mapping);
+    }
+    if (given.nodes > 0)
+        options.nodes = given.nodes;
+    if (!given.spacing.empty()) {
+        SEROSA_ASSIGN(options.spacing, parseSpacing(given.spacing));
+    }
+    options.out = given.out;
+    options.force = given.force;
+    return options;
+}
+
+/// What both commands take.
+void addSceneOptions(CLI::App& command, RunArguments& given) {
+    command.add_option("scene", given.scene, "scene file (docs/scene.md)")->type_name("SCENE");
+    command
+        .add_option(
+            "--model", given.model,
+            "instead of a scene: a closed surface (OBJ, PLY, OFF, STL, VTK, TetGen) with a default tissue (5 "
+            "kPa) and probe")
+        ->type_name("FILE");
+    command.add_option("--length-unit", given.lengthUnit, "unit of --model's coordinates: mm, cm, m, um, in")
+        ->type_name("U");
+    command
+        .add_option("--up-axis", given.upAxis,
+                    "axis of --model that points up: x, y, z, -x, -y, -z (default: y)")
+        ->type_name("A");
+    addRepairFlag(command, given.repair);
+    command.add_option("--size", given.size, "size of the pictures in pixels (default: 960x960)")
+        ->type_name("WxH");
+    command
+        .add_option("--mapping", given.mapping,
+                    "how the surface follows the lattice: one-to-one, triangle, curvature")
+        ->type_name("M");
+    command.add_option("--nodes", given.nodes, "lattice nodes aimed at (default: 20000)")
+        ->type_name("N")
+        ->check(CLI::Range(8, 1000000000));
+    command
+        .add_option("--spacing", given.spacing,
+                    "lattice spacing with its unit, such as \"2.5 mm\", instead of --nodes")
+        ->type_name("L")
+        ->excludes("--nodes");
+    command
+        .add_option("--solver", given.solver,
+                    "fragment (on the GPU) or reference (CPU, double precision, slow)")
+        ->default_str("fragment");
+    command
+        .add_option("--layout", given.layout,
+                    "textures of the lattice: auto (by how full its grid is), grid, rows")
+        ->default_str("auto");
+}
+
+} // namespace
+
+Result<int> wordIndex(const std::string& option, const std::string& text,
+                      const std::vector<std::string>& words) {
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (text == words[i])
+            return int(i);
+    return Error{option + ": unknown value " + sim::inQuotes(text) + sim::suggestion(text, words)};
+}
+
+Result<double> parseSpacing(const std::string& text) {
+    Result<double> spacing = sim::parseQuantity(text, sim::Dimension::length);
+    if (!spacing)
+        return Error{"--spacing: " + spacing.error().message};
+    if (!(*spacing > 0))
+        return Error{"--spacing: " + sim::inQuotes(text) + " is not greater than 0"};
+    return spacing;
+}
+
+void addGlOption(CLI::App& command, std::string& gl) {
+    command
+        .add_option("--gl", gl,
+                    "OpenGL context: auto (a GPU's EGL device, EGL, then OSMesa), egl, egl-device, osmesa")
+        ->default_str("auto");
+}
+
+void addRepairFlag(CLI::App& command, bool& repair) {
+    command.add_flag("--repair", repair,
+                     "mend winding, small holes, duplicate faces and stray vertices (docs/import.md)");
+}
+
+void addRun(CLI::App& app, std::function<Result<int>()>& action) {
+    CLI::App* command =
+        app.add_subcommand("run", "Simulate a scene or a model; write pictures, surfaces, summary.json");
+    auto given = std::make_shared<RunArguments>();
+    addSceneOptions(*command, *given);
+    command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")
+        ->type_name("DIR");
+    command->add_flag("--force", given->force,
+                      "write into a folder that holds something; results of an earlier run are replaced");
+    command
+        ->add_option("--frames", given->frames,
+                     "number of frames, instead of the scene's duration (default model: 120)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    addGlOption(*command, given->gl);
+    command->footer(
+        "Examples:\n"
+        "  serosa run heart.toml\n"
+        "  serosa run --model liver.stl --length-unit mm --nodes 5000 --frames 60 --out liver\n"
+        "Exit codes: 0 done, 1 the state ran away, 2 bad input, 5 no OpenGL context, 130 interrupted.");
+    command->callback([given, &action] {
+        action = [given]() -> Result<int> {
+            SEROSA_ASSIGN(const RunOptions options, runOptions("run", *given));
+            return runScene(options, std::cout);
+        };
+    });
+}
+
+void addView(CLI::App& app, std::function<Result<int>()>& action) {
+    CLI::App* command = app.add_subcommand("view", "Show a scene or a model in a window (docs/view.md)");
+    struct Arguments : RunArguments {
+        std::string shaders;
+        int quitAfter = 0;
+        bool fast = false, noPanel = false;
+    };
+    auto given = std::make_shared<Arguments>();
+    addSceneOptions(*command, *given);
+    command->add_option("--out", given->out, "folder for screenshots (default: the current one)")
+        ->type_name("DIR");
+    command
+        ->add_option("--shaders", given->shaders,
+                     "folder that F5 takes the drawing shaders from: edit them while they are in use")
+        ->type_name("DIR");
+    command
+        ->add_option("--quit-after", given->quitAfter,
+                     "close after that many frames of the scene; the last line has the hash of the state")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    command->add_flag("--fast", given->fast, "as fast as it goes, not in real time");
+    command->add_flag("--no-panel", given->noPanel, "start without the panel (p shows it)");
+    command->footer(
+        "Keys: space pause, . step, r restart, 1 2 3 mapping, l lattice, w wires, n normals, s F12 "
+        "screenshots,\n"
+        "F5 shaders, c camera, p panel, q quit. Mouse: drag turns, right drag moves, wheel zooms.\n"
+        "Examples:\n"
+        "  serosa view heart.toml\n"
+        "  serosa view --model liver.stl --length-unit mm --nodes 5000\n"
+        "Exit codes: 0 closed, 1 the state ran away, 2 bad input, 5 no display or no OpenGL, 130 "
+        "interrupted.");
+    command->callback([given, &action] {
+        action = [given]() -> Result<int> {
+            ViewOptions options;
+            SEROSA_ASSIGN(options.run, runOptions("view", *given));
+            options.shaders = given->shaders;
+            if (!given->out.empty())
+                options.pictures = given->out;
+            options.quitAfter = given->quitAfter;
+            options.fast = given->fast;
+            options.panel = !given->noPanel;
+            return runView(options, std::cout);
+        };
+    });
+}
+
+} // namespace serosa::app

@@ -1,0 +1,30 @@
+#pragma once
+// The options of commands that take a scene or a model, `run` and `view`, and what others share with them.
+
+#include "app/run.h"
+#include "base/result.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace serosa::app {
+
+/// The index of a word, or an error that names the option.
+Result<int> wordIndex(const std::string& option, const std::string& text,
+                      const std::vector<std::string>& words);
+/// "2.5 mm" in metres, more than 0. Errors name --spacing.
+Result<double> parseSpacing(const std::string& text);
+
+void addGlOption(CLI::App& command, std::string& gl);
+void addRepairFlag(CLI::App& command, bool& repair);
+
+/// Each adds its command, which leaves what to do in `action`.
+void addRun(CLI::App& app, std::function<Result<int>()>& action);
+void addView(CLI::App& app, std::function<Result<int>()>& action);
+
+} // namespace serosa::app

@@ -1,0 +1,42 @@
+#pragma once
+// A scene's state, frame by frame. A frame is always the same number of steps, so what comes after 300 of
+// them is the same bytes however they were paced and drawn: `serosa view` plays what `serosa run` runs.
+
+#include "app/run_setup.h"
+#include "sim/lattice_state.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace serosa::app {
+
+class ScenePlayer {
+public:
+    /// `parts` must be prepared, and outlive this.
+    explicit ScenePlayer(RunParts& parts);
+
+    /// One frame of the scene: for each organ its steps, or its next pose; the textures follow. Poses stay as
+    /// they are after the scene's last frame.
+    void advance();
+    /// Back to rest, frame 0.
+    void reset();
+
+    int frame() const { return frame_; }
+    double time() const { return frame_ / parts_.scene.frameRate; } // s
+    /// Steps of all solvers a frame.
+    int stepsPerFrame() const;
+    /// Reads an organ's state back (stalls).
+    sim::LatticeState state(std::size_t organ) const;
+    /// Of all organs, joined by '-': `state_hash` of a run's summary after as many frames.
+    std::string stateHash() const;
+    /// The first organ with a node that is not finite, in words; empty where all are.
+    std::string runaway() const;
+
+private:
+    RunParts& parts_;
+    int frame_ = 0;
+    std::vector<std::optional<sim::LatticeState>> posed_; // one an organ
+};
+
+} // namespace serosa::app

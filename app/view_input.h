@@ -1,0 +1,44 @@
+#pragma once
+// What keys and mouse do in `serosa view` (docs/view.md): to the camera at once, to the rest through switches
+// that the panel sets, too.
+
+#include "app/orbit_camera.h"
+#include "gpu/context_window.h"
+#include "sim/scene.h"
+
+#include <glm/glm.hpp>
+
+namespace serosa::app {
+
+/// What keys and panel both set; the loop of the view acts on it.
+struct ViewControls {
+    bool paused = false, wireframe = false, panel = true;
+    sim::Look look;
+    // Asked for once; the loop clears them.
+    int steps = 0; // frames, one by one
+    bool restart = false, picture = false, windowPicture = false, reload = false, resetCamera = false,
+         quit = false;
+};
+
+class ViewInput {
+public:
+    /// Both outlive this.
+    ViewInput(ViewControls& controls, OrbitCamera& camera) : controls_(controls), camera_(camera) {}
+
+    /// \param height of the window, in the units of events. \param taken the panel has this event: a drag
+    /// does not begin, a key or the wheel does nothing.
+    void take(const gpu::WindowEvent& event, int height, bool taken);
+
+private:
+    void mouse(const gpu::WindowEvent& event, double height, bool taken);
+    void key(const gpu::WindowEvent& event);
+    void press(int key);
+
+    enum class Drag { none, turn, move };
+    ViewControls& controls_;
+    OrbitCamera& camera_;
+    Drag drag_ = Drag::none;
+    glm::dvec2 pointer_{0};
+};
+
+} // namespace serosa::app
