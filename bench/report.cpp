@@ -90,6 +90,8 @@ void Report::ratio(const std::string& name, const Spread& spread) {
 }
 
 void Report::ratioTable() {
+    if (ratios_.empty())
+        return;
     std::vector<std::vector<std::string>> rows;
     for (const Ratio& item : ratios_) {
         const Target* target = targetOf(item.name);
