@@ -1,14 +1,14 @@
 #pragma once
-// `serosa verify`: the program's own verification. Each group measures what is known without the program and says what
-// was measured, expected, the tolerance and its unit. The tests call the same groups.
+// `serosa verify`: the program's own verification. Each group measures what is known without the program and
+// says what was measured, expected, the tolerance and its unit. The tests call the same groups.
+
+#include "base/result.h"
+#include "gpu/context.h"
 
 #include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
-
-#include "base/result.h"
-#include "gpu/context.h"
 
 namespace serosa::app {
 
@@ -16,8 +16,8 @@ enum class CheckKind { equalAbs, equalRel, atMost, atLeast };
 /// "equal_abs", "equal_rel", "at_most", "at_least"
 const char* checkKindName(CheckKind kind);
 
-/// equal_abs: |measured - expected| <= tolerance; equal_rel: <= tolerance |expected|; at_most: measured <= expected
-/// (1 + tolerance is not used: 0); at_least: measured >= expected. NaN never passes.
+/// equal_abs: |measured - expected| <= tolerance; equal_rel: <= tolerance |expected|; at_most: measured <=
+/// expected (1 + tolerance is not used: 0); at_least: measured >= expected. NaN never passes.
 struct Check {
     std::string name;
     CheckKind kind = CheckKind::atMost;
@@ -38,7 +38,8 @@ struct Injection {
 struct VerifyOptions {
     gpu::GlChoice gl = gpu::GlChoice::automatic;
     Injection inject;
-    bool full = false; // --full: every figure at its full length (nightly); else the same checks on shorter runs where said
+    bool full = false; // --full: every figure at its full length (nightly); else the same checks on shorter
+                       // runs where said
 };
 
 /// Collects the checks of one group.
@@ -67,8 +68,8 @@ const std::vector<VerifyGroup>& verifyGroups();
 Status verifySolver(const VerifyOptions& options, CheckList& checks);  // app/verify_solver.cpp
 Status verifyMapping(const VerifyOptions& options, CheckList& checks); // app/verify_mapping.cpp
 
-/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json if folder is not empty.
-/// Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).
+/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json if folder is not
+/// empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).
 int runVerify(const std::vector<std::string>& names, const VerifyOptions& options, const std::string& folder,
               bool allowSkip, std::ostream& out);
 

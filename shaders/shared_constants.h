@@ -3,7 +3,8 @@
 
 // State textures (ARCHITECTURE.md, texture formats).
 // Node info texel, RGBA32UI: .x = connection bits 0..17, material << 18 (8 bits), flags << 26 (6 bits);
-// .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w = free.
+// .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w =
+// free.
 #define SRS_CONNECTION_MASK 0x3ffffu
 #define SRS_MATERIAL_SHIFT 18
 #define SRS_MATERIAL_MASK 0xffu
@@ -13,9 +14,9 @@
 #define SRS_HELD_MASK 0x7u // 0: free, else 1 + the index of the tool that holds the node
 #define SRS_FLAG_SPARE (1u << 31)
 
-// Connection order: 6 axis neighbours at h, then 12 face diagonals at sqrt(2) h. Opposite directions are adjacent:
-// 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z, 6 (+,+,0), 7 (-,-,0), 8 (+,-,0), 9 (-,+,0), 10 (+,0,+), 11 (-,0,-),
-// 12 (+,0,-), 13 (-,0,+), 14 (0,+,+), 15 (0,-,-), 16 (0,+,-), 17 (0,-,+)
+// Connection order: 6 axis neighbours at h, then 12 face diagonals at sqrt(2) h. Opposite directions are
+// adjacent: 0 +x, 1 -x, 2 +y, 3 -y, 4 +z, 5 -z, 6 (+,+,0), 7 (-,-,0), 8 (+,-,0), 9 (-,+,0), 10 (+,0,+), 11
+// (-,0,-), 12 (+,0,-), 13 (-,0,+), 14 (0,+,+), 15 (0,-,-), 16 (0,+,-), 17 (0,-,+)
 #define SRS_NEIGHBOURS 18
 
 // Texture layouts of the lattice (sim/texture_layout.h)
@@ -27,8 +28,8 @@
 #define SRS_TOOL_PUSH 1
 #define SRS_TOOL_GRASP 2
 
-// Packed normals: octahedral, 15 bits a coordinate, bits 30 and 23 fixed so that the float is never NaN, infinite or
-// denormal.
+// Packed normals: octahedral, 15 bits a coordinate, bits 30 and 23 fixed so that the float is never NaN,
+// infinite or denormal.
 #define SRS_NORMAL_HALF_STEPS 16380.0 // of a coordinate -1..1 on either side of 0; divides by 2, 3 and 4
 
 // Surface mapping modes, a vertex

@@ -238,8 +238,6 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.read("section_normal", scene.look.sectionNormal));
     if (glm::length(scene.look.sectionNormal) < 1e-9)
         return look.errorAt("section_normal", "has no length");
-    if (look.has("section_normal") && !look.has("section_at"))
-        return look.errorAt("section_normal", "has no effect without 'section_at'");
     return {};
 }
 

@@ -1,10 +1,11 @@
 #pragma once
-// Scripted tools: a sphere that follows timed key poses, and pushes (contact) or holds what it touched (grasp).
+// Scripted tools: a sphere that follows timed key poses, and pushes (contact) or holds what it touched
+// (grasp).
+
+#include <glm/glm.hpp>
 
 #include <string>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace serosa::sim {
 
@@ -15,8 +16,8 @@ struct ToolKey {
     glm::dvec3 at; // centre, m, world
 };
 
-/// A push tool exists for the whole run and waits at its first and last pose. A grasp tool takes hold of the nodes
-/// inside its sphere at its first key and lets go at its last.
+/// A push tool exists for the whole run and waits at its first and last pose. A grasp tool takes hold of the
+/// nodes inside its sphere at its first key and lets go at its last.
 struct Tool {
     std::string name;
     ToolMode mode = ToolMode::push;

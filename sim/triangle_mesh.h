@@ -1,10 +1,10 @@
 #pragma once
 // An indexed triangle soup: what the readers give, the phantoms make and the surface passes draw.
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace serosa::sim {
 
@@ -12,8 +12,8 @@ namespace serosa::sim {
 /// Faces wind counter-clockwise seen from outside.
 struct TriangleMesh {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::uvec3> faces;     // indices into positions
-    std::vector<glm::u8vec3> colours;  // sRGB, one a vertex, or empty
+    std::vector<glm::uvec3> faces;    // indices into positions
+    std::vector<glm::u8vec3> colours; // sRGB, one a vertex, or empty
 
     /// Bounds of all positions; both zero for an empty mesh.
     glm::dvec3 lowest() const;

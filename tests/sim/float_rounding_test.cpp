@@ -1,5 +1,6 @@
-// The compiler must keep the rounding to float32 that a conversion through float means: g++ 12 with its basic-block
-// vectorizer does not (CMakeLists.txt switches that off), and the twins of float32 shaders rely on it.
+// The compiler must keep the rounding to float32 that a conversion through float means: g++ 12 with its
+// basic-block vectorizer does not (CMakeLists.txt switches that off), and the twins of float32 shaders rely
+// on it.
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
