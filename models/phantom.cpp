@@ -4,60 +4,58 @@
 #include "models/dragon.h"
 #include "models/heart.h"
 #include "models/simple_shapes.h"
-
-#include <algorithm>
+#include "sim/suggest.h"
 
 namespace serosa::models {
 namespace {
 
-/// Number of single-letter edits between two words.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
+using Maker = Result<sim::TriangleMesh> (*)(std::size_t faces);
+
+struct Phantom {
+    PhantomInfo info;
+    Maker make;
+};
+
+/// A new phantom is a line here, and a file of its own.
+const std::vector<Phantom>& table() {
+    static const std::vector<Phantom> list = {
+        {{"heart", "adult heart: four chambers with true walls, great vessels, coronaries; 120 mm of muscle",
+          50000},
+         makeHeart},
+        {{"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000}, makeDragon},
+        {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
+        {{"ball", "ball of radius 40 mm", 5120}, makeBall},
+    };
+    return list;
 }
 
 } // namespace
 
 const std::vector<PhantomInfo>& phantoms() {
-    static const std::vector<PhantomInfo> list = {
-        {"heart", "adult heart: four chambers with true walls, great vessels, coronaries; 120 mm of muscle",
-         50000},
-        {"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000},
-        {"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600},
-        {"ball", "ball of radius 40 mm", 5120},
-    };
+    static const std::vector<PhantomInfo> list = [] {
+        std::vector<PhantomInfo> infos;
+        for (const Phantom& phantom : table())
+            infos.push_back(phantom.info);
+        return infos;
+    }();
     return list;
 }
 
 Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces) {
     if (faces < 4)
         return Error{"a closed surface has at least 4 faces, not " + std::to_string(faces)};
-    if (name == "heart")
-        return makeHeart(faces);
-    if (name == "dragon")
-        return makeDragon(faces);
-    if (name == "beam")
-        return makeBeam(faces);
-    if (name == "ball")
-        return makeBall(faces);
-    std::string all, nearest;
-    for (const PhantomInfo& info : phantoms()) {
-        all += (all.empty() ? "" : ", ") + info.name;
-        if (nearest.empty() || editDistance(name, info.name) < editDistance(name, nearest))
-            nearest = info.name;
+    std::vector<std::string> names;
+    for (const Phantom& phantom : table()) {
+        if (phantom.info.name == name)
+            return phantom.make(faces);
+        names.push_back(phantom.info.name);
     }
-    return Error{"no phantom is named \"" + name + "\"; did you mean \"" + nearest + "\"? There are: " + all};
+    std::string all;
+    for (const std::string& known : names)
+        all += (all.empty() ? "" : ", ") + known;
+    const std::string near = sim::nearestWord(name, names);
+    return Error{"no phantom is named \"" + name + "\"" +
+                 (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; there are: " + all};
 }
 
 } // namespace serosa::models

@@ -11,7 +11,7 @@
 namespace serosa::models {
 
 struct PhantomInfo {
-    std::string name;        // "heart", "dragon", "beam", "ball"
+    std::string name;        // "heart", "liver"
     std::string description; // one line
     std::size_t defaultFaces;
 };
