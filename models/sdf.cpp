@@ -55,4 +55,34 @@ double noise(const Point& p) {
     return sum;
 }
 
+double layeredNoise(const Point& p, int octaves) {
+    double sum = 0, height = 1, most = 0;
+    for (int i = 0; i < octaves; ++i, height *= 0.5) {
+        sum += height * noise(p / height + 17.0 * i);
+        most += height;
+    }
+    return sum / most;
+}
+
+Cells cells(const Point& p, double jitter) {
+    const Point base = glm::floor(p);
+    Cells found{1e9, 1e9, 0};
+    for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const Point cube = base + Point(dx, dy, dz);
+                const auto x = static_cast<std::int64_t>(cube.x), y = static_cast<std::int64_t>(cube.y),
+                           z = static_cast<std::int64_t>(cube.z);
+                const Point shift(latticeValue(x, y, z), latticeValue(x + 7919, y, z),
+                                  latticeValue(x, y + 7919, z));
+                const double d = glm::length(cube + 0.5 + 0.5 * jitter * shift - p);
+                if (d < found.nearest) {
+                    found = {d, found.nearest, 0.5 + 0.5 * latticeValue(x, y, z + 7919)};
+                } else {
+                    found.second = std::min(found.second, d);
+                }
+            }
+    return found;
+}
+
 } // namespace serosa::models

@@ -73,4 +73,15 @@ double ellipsoid(const Point& p, const Point& e);
 /// Smooth deterministic noise in [-1, 1] with features of about one unit.
 double noise(const Point& p);
 
+/// `octaves` of noise, each half as large and half as high as the one before; in [-1, 1].
+double layeredNoise(const Point& p, int octaves);
+
+/// Distances to the nearest and the second nearest of points that are strewn over space, one in each unit
+/// cube, at most `jitter` (0 to 1) of half a unit from its middle. `second - nearest` is 0 on the walls
+/// between their cells. `which` tells the cells apart (0 to 1).
+struct Cells {
+    double nearest, second, which;
+};
+Cells cells(const Point& p, double jitter);
+
 } // namespace serosa::models
