@@ -28,6 +28,7 @@ struct ChildResult {
 struct ChildOptions {
     std::vector<std::pair<std::string, std::string>> environment;
     long long largestFile = -1; // bytes: writing more fails, as on a full disk; -1: no limit
+    std::string interruptAfter; // a file in the child's folder: once it is there, the child gets SIGINT
 };
 
 inline std::string readWhole(const std::filesystem::path& file) {
@@ -88,6 +89,12 @@ inline ChildResult runSerosa(const std::filesystem::path& folder, const std::vec
         _exit(127);
     }
     int status = 0;
+    if (!options.interruptAfter.empty()) {
+        while (!std::filesystem::exists(folder / options.interruptAfter) &&
+               waitpid(child, &status, WNOHANG) == 0)
+            usleep(1000);
+        kill(child, SIGINT);
+    }
     waitpid(child, &status, 0);
     ChildResult result;
     result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

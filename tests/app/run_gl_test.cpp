@@ -160,6 +160,41 @@ TEST_F(GlRun, FullDiskLeavesNothing) {
 }
 
 // An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.
+TEST_F(GlRun, AnInterruptedRunKeepsItsFramesAndSaysSo) {
+    ChildOptions options;
+    options.interruptAfter = "a/frame_000003.png";
+    const ChildResult result = run("a", {"--frames", "1000000"}, options);
+    EXPECT_EQ(result.exitCode, 130) << result.err;
+    const nlohmann::json json = summary("a");
+    ASSERT_FALSE(json.is_discarded()) << result.err;
+    EXPECT_EQ(json["end"], "interrupted");
+    EXPECT_EQ(json["frames_asked"], 1000000);
+    const int frames = json["frames"];
+    EXPECT_GE(frames, 3);
+    // The state is that of a run that was asked for just so many frames.
+    ASSERT_EQ(run("b", {"--frames", std::to_string(frames)}).exitCode, 0);
+    EXPECT_EQ(json["state_hash"], summary("b")["state_hash"]);
+    EXPECT_EQ(json["largest_displacement_m"].is_number(), true);
+    EXPECT_TRUE(written("a").contains("frame_000003.png"));
+}
+
+TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
+    // Gravity beyond the range of the state's float32: infinite after one step.
+    std::string scene = readWhole(folder_.path() / "ball.toml");
+    scene.insert(scene.find("[[organ]]"), "gravity = [\"0 m/s2\", \"-1e45 m/s2\", \"0 m/s2\"]\n");
+    folder_.write("away.toml", scene);
+    const ChildResult result =
+        serosa({"run", "away.toml", "--frames", "30", "--gl", glChoice(), "--out", "away"});
+    EXPECT_EQ(result.exitCode, 1) << result.out;
+    EXPECT_EQ(result.errorLines(), 1U) << result.err;
+    EXPECT_NE(result.err.find("is not finite"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("node "), std::string::npos) << result.err;
+    const nlohmann::json json = summary("away");
+    ASSERT_FALSE(json.is_discarded()) << "what led to it is kept";
+    EXPECT_EQ(json["end"], "not finite");
+    EXPECT_EQ(json["frames"], 10) << "found at the first sample, after ten frames";
+}
+
 TEST_F(GlRun, SeveralOrgansMoveInLockstep) {
     const std::string organ = "model = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
                               "[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.3\n";
