@@ -1,7 +1,9 @@
 // The list of phantoms.
 #include "models/phantom.h"
 
+#include "models/apple.h"
 #include "models/dragon.h"
+#include "models/golf_ball.h"
 #include "models/heart.h"
 #include "models/simple_shapes.h"
 #include "sim/suggest.h"
@@ -23,6 +25,8 @@ const std::vector<Phantom>& table() {
           50000},
          makeHeart},
         {{"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000}, makeDragon},
+        {{"golfball", "golf ball with 336 dimples, for figure 3 of CS07", 245000}, makeGolfBall},
+        {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 60000}, makeApple},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
