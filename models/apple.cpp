@@ -52,12 +52,12 @@ double body(const Point& p) {
 }
 
 double calyx(const Point& p) {
-    double d = sphere(p, {0, -26.6, 0}, 2.4);
+    double d = capsule(p, {0, -26, 0}, {0, -30.2, 0}, 2.6, 1.6); // no gap is left between the sepals
     for (int i = 0; i < 5; ++i) {
         const double angle = kTurn * i / 5;
         const Point out(std::cos(angle), 0, std::sin(angle));
-        d = blend(d, capsule(p, Point(0, -27.5, 0) + 1.6 * out, Point(0, -32.2, 0) + 2.9 * out, 1.2, 0.65),
-                  0.6);
+        d = blend(d, capsule(p, Point(0, -28, 0) + 1.6 * out, Point(0, -32.4, 0) + 3.4 * out, 1.0, 0.65),
+                  1.0);
     }
     return d;
 }
@@ -83,7 +83,7 @@ glm::u8vec3 colour(const Point& p) {
         c = mix(mix(yellow, green, 0.5 + 0.5 * broad), mix(red, dark, 0.5 + 0.5 * streak), blush);
         // Lenticels.
         const Cells dots = cells(p / 5.2, 0.9);
-        c = mix(c, Colour(238, 206, 140), 0.55 * (1 - ramp(0.06, 0.18, dots.nearest)));
+        c = mix(c, Colour(238, 206, 140), 0.3 * (1 - ramp(0.06, 0.18, dots.nearest)));
         // Both hollows are greener, with russet about the stem.
         c = mix(c, green, 0.75 * ramp(13, 5, r + 2 * fine));
         c = mix(c, Colour(164, 128, 66), p.y > 0 ? 0.8 * ramp(9, 3, r + 1.5 * fine) : 0.3 * ramp(8, 3, r));

@@ -108,7 +108,7 @@ double distance(const Point& p) {
 
 glm::u8vec3 colour(const Point& p) {
     const double depth = kRadius - glm::length(p);
-    const Colour lacquer(244, 244, 238), shade(206, 210, 212);
+    const Colour lacquer(216, 216, 210), shade(172, 176, 178);
     return toBytes(mix(lacquer, shade, ramp(0, kDimpleDepth, depth)));
 }
 

@@ -5,6 +5,7 @@
 #include "models/dragon.h"
 #include "models/golf_ball.h"
 #include "models/heart.h"
+#include "models/kidney.h"
 #include "models/simple_shapes.h"
 #include "sim/suggest.h"
 
@@ -24,6 +25,7 @@ const std::vector<Phantom>& table() {
         {{"heart", "adult heart: four chambers with true walls, great vessels, coronaries; 120 mm of muscle",
           50000},
          makeHeart},
+        {{"kidney", "right kidney, 110 mm high, with renal artery, vein and ureter", 50000}, makeKidney},
         {{"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000}, makeDragon},
         {{"golfball", "golf ball with 336 dimples, for figure 3 of CS07", 245000}, makeGolfBall},
         {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 60000}, makeApple},
