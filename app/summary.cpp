@@ -6,8 +6,11 @@
 #include "shaders/shared_constants.h"
 #include "sim/scene_keys.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace serosa::app {
@@ -126,6 +129,13 @@ Json toolsJson(const RunRecord& record) {
     return tools;
 }
 
+/// Largest resident memory of the process so far, bytes (Linux counts in KiB).
+std::int64_t peakMemory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t(usage.ru_maxrss) * 1024;
+}
+
 Json timingJson(const RunRecord& record) {
     const RunTimes& times = record.times;
     const double frames = std::max(1, record.framesDone);
@@ -143,7 +153,8 @@ Json timingJson(const RunRecord& record) {
              times.steps > 0 ? simulated / (times.steps + times.draw * frames / pictures) : 0},
             {"setup_s", times.setup},
             {"files_s", times.files},
-            {"total_s", times.total}};
+            {"total_s", times.total},
+            {"peak_memory_B", peakMemory()}};
 }
 
 } // namespace

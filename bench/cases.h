@@ -13,7 +13,7 @@ namespace serosa::bench {
 struct Options {
     int rounds = 5;
     double seconds = 0.4;          // a turn of a case
-    std::size_t largest = 1000000; // nodes, of the growth tables
+    std::size_t largest = 1000000; // nodes, of the growth and large tables
 };
 
 /// A lattice with all that a solver needs, at rest, loaded by gravity. Does not move.
@@ -40,5 +40,7 @@ Status benchSolver(const Options& options, Report& report);
 Status benchMapping(const Options& options, Report& report);
 /// Time and bytes a node from 5,000 nodes upwards, for both layouts (bench/growth_cases.cpp).
 Status benchGrowth(const Options& options, Report& report);
+/// Time and memory of whole runs, up to a million nodes and faces (bench/large_cases.cpp).
+Status benchLarge(const Options& options, Report& report);
 
 } // namespace serosa::bench

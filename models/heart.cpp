@@ -13,7 +13,7 @@ using Anatomy = HeartAnatomy;
 
 const Point kCentre(6, 16, -8); // of the vessels and muscle together, in the anatomy's frame, mm
 const Point kLowest(-60, -82, -62), kHighest(78, 108, 58);
-constexpr std::size_t kFewest = 12000, kMost = 600000; // faces; fewer would not resolve 2 mm walls
+constexpr std::size_t kFewest = 12000, kMost = 1050000; // faces; fewer would not resolve 2 mm walls
 
 struct Heart {
     Anatomy anatomy;

@@ -8,7 +8,7 @@ namespace serosa::models {
 namespace {
 
 constexpr double kSurplus = 3.2;    // faces before remeshing, in faces wanted
-constexpr double kMostPoints = 4e7; // lattice points: 320 MB
+constexpr double kMostPoints = 8e7; // lattice points: 640 MB
 
 } // namespace
 
