@@ -75,13 +75,13 @@ glm::u8vec3 colour(const Point& p) {
     if (body < -1) {
         c = inside(p, -body);
     } else {
-        const Colour capsule(134, 58, 44), dark(96, 36, 32);
+        const Colour capsule(120, 50, 40), dark(88, 32, 30);
         c = mix(capsule, dark, 0.85 * broad);
         // Stellate veins under the capsule.
         const Point warped =
             p / 11.0 + 0.25 * Point(noise(p / 6.0), noise(p / 6.0 + 20.0), noise(p / 6.0 + 50.0));
         const Cells net = cells(warped, 0.8);
-        c = mix(c, Colour(86, 30, 36), 0.4 * (1 - ramp(0.02, 0.14, net.second - net.nearest)));
+        c = mix(c, Colour(86, 30, 36), 0.32 * (1 - ramp(0.02, 0.16, net.second - net.nearest)));
         c *= 0.96 + 0.08 * fine;
     }
     const Colour yellow = mix(Colour(228, 192, 112), Colour(208, 164, 88), fine);

@@ -5,9 +5,9 @@
 
 namespace serosa::models {
 
-double ellipsoid(const Point& p, const Point& e) {
+double ellipsoid(const Point& p, const Point& e, double reach) {
     const double away = glm::length(p) - std::max({e.x, e.y, e.z});
-    if (away > 20)
+    if (away > reach)
         return away; // a lower bound is enough
     const Point y = glm::max(glm::abs(p), 1e-9);
     const Point e2 = e * e, ey = e * y;

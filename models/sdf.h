@@ -65,10 +65,11 @@ inline double capsule(const Point& p, const Point& a, const Point& b, double ra,
     return glm::length(p - a - t * ab) - (ra + t * (rb - ra));
 }
 
-/// Distance to an axis-aligned ellipsoid with semi-axes e about the origin, exact (a lower bound more than 20
-/// away): the closest point is e^2 p / (t + e^2), where t is the largest root of sum (e p / (t + e^2))^2 = 1
-/// (Newton from the left: the function is convex and falling there, so no step overshoots).
-double ellipsoid(const Point& p, const Point& e);
+/// Distance to an axis-aligned ellipsoid with semi-axes e about the origin, exact (a lower bound more than
+/// `reach` outside, where a blend must not look): the closest point is e^2 p / (t + e^2), where t is the
+/// largest root of sum (e p / (t + e^2))^2 = 1 (Newton from the left: the function is convex and falling
+/// there, so no step overshoots).
+double ellipsoid(const Point& p, const Point& e, double reach = 20);
 
 /// Smooth deterministic noise in [-1, 1] with features of about one unit.
 double noise(const Point& p);
