@@ -67,11 +67,11 @@ std::vector<TubePoint> hung(const Point& root, const std::vector<Point>& offsets
 Parts::Parts()
     : gallbladder(spline(gallbladderLine(0, 0), 1.0)), cysticDuct(spline(ductLine(), 1.0)),
       fossa(spline(gallbladderLine(9, 4), 2.0)),
-      portal(hung(laid({12, -12, -24}, -6), {{2, -10, -4}, {4, -20, -6}, {5, -29, -7}}, 7.2), 1.3, 8),
-      artery(hung(laid({22, -10, -18}, -5), {{2, -10, 1}, {1, -20, 1}, {0, -31, 0}}, 3.3), 1.2, 6),
-      bileDuct(hung(laid({2, -13, -22}, -5), {{3, -10, -1}, {5, -21, 0}, {5, -32, 0}}, 3.7), 1.1, 6),
-      upperCava({{{2, 10, -47}, 12}, {{-1, 32, -44}, 12.5}, {{-4, 54, -39}, 12.5}}, 1.6, 10),
-      lowerCava({{{2, 10, -47}, 12}, {{3, -8, -50}, 12}, {{4, -20, -53}, 11.5}}, 1.6, 10) {}
+      portal(hung(laid({12, -12, -24}, -6), {{2, -10, -4}, {4, -20, -6}, {5, -29, -7}}, 7.2), 1.9, 8),
+      artery(hung(laid({22, -10, -18}, -5), {{2, -10, 1}, {1, -20, 1}, {0, -31, 0}}, 3.7), 1.8, 5),
+      bileDuct(hung(laid({2, -13, -22}, -5), {{3, -10, -1}, {5, -21, 0}, {5, -32, 0}}, 3.9), 1.8, 5),
+      upperCava({{{2, 10, -47}, 12}, {{-1, 32, -44}, 12.5}, {{-4, 54, -39}, 12.5}}, 2.0, 10),
+      lowerCava({{{2, 10, -47}, 12}, {{3, -8, -50}, 12}, {{4, -20, -53}, 11.5}}, 2.0, 10) {}
 
 const Parts& parts() {
     static const Parts made;
@@ -85,7 +85,8 @@ double ligamentAt(double y) {
 
 double ligament(const Point& p, double tissue) {
     const double front = -p.z + 6 - 0.35 * p.y; // only over the front and the top
-    return common(std::max(std::abs(p.x - ligamentAt(p.y)) - 1.3, tissue - 2.6), front, 8);
+    const double band = common(std::abs(p.x - ligamentAt(p.y)) - 1.4, tissue - 2.8, 1.2);
+    return common(band, front, 8);
 }
 
 double porta(const Point& p) {
@@ -127,8 +128,8 @@ glm::u8vec3 colour(const Point& p) {
     const double tissue = tissueWithFossa(p);
     const double broad = 0.5 + 0.5 * layeredNoise(p / 34.0, 3), fine = 0.5 + 0.5 * noise(p / 3.0 + 9.0);
     const double middle = 0.5 + 0.5 * noise(p / 9.0 + 30.0);
-    Colour c = mix(Colour(118, 46, 36), Colour(86, 30, 28), 0.85 * broad);
-    c = mix(c, Colour(136, 62, 44), 0.25 * middle);
+    Colour c = mix(Colour(104, 42, 34), Colour(76, 28, 27), 0.85 * broad);
+    c = mix(c, Colour(122, 58, 42), 0.25 * middle);
     c *= 0.97 + 0.06 * fine;
     const auto paint = [&](double own, const Colour& a, const Colour& b, double t, double edge) {
         c = mix(c, mix(a, b, t), ramp(edge, 0.15 * edge, own));
@@ -137,10 +138,10 @@ glm::u8vec3 colour(const Point& p) {
     paint(cava(p), {98, 90, 130}, {84, 74, 112}, middle, 1.6);
     paint(porta(p) + fine - 0.5, {226, 192, 116}, {206, 164, 92}, fine, 1.6);
     const double bile = gallbladderDistance(p);
-    paint(bile, {104, 128, 66}, {62, 90, 50}, 0.25 + 0.6 * middle, 1.2);
+    paint(bile, {94, 106, 66}, {58, 74, 50}, 0.2 + 0.7 * middle, 1.2);
     paint(made.portal.outer(p), {98, 88, 132}, {86, 74, 116}, fine, 1.0);
     paint(made.artery.outer(p), {192, 54, 46}, {170, 44, 40}, fine, 0.8);
-    paint(made.bileDuct.outer(p), {132, 142, 76}, {112, 124, 62}, fine, 0.8);
+    paint(made.bileDuct.outer(p), {122, 126, 76}, {104, 108, 62}, fine, 0.8);
     c = mix(c, Colour(84, 22, 26), ramp(0.35, 0.05, lumens(p)));
     return toBytes(c);
 }
@@ -181,11 +182,13 @@ const Solid& liverSolid() {
         s.source.distance = distance;
         s.source.lowest = kLowest;
         s.source.highest = kHighest;
-        s.source.thinnest = 1.2; // walls of the stumps
+        s.source.thinnest = 1.8; // walls of the stumps
         s.source.size = [](const Point& p) {
             const double small = std::min({hanging(p), porta(p), parts().cysticDuct.distance(p)});
             const double fair = std::min(parts().gallbladder.distance(p), cava(p));
-            return std::min(0.4 + 0.6 * ramp(0.5, 10, small), 0.6 + 0.4 * ramp(0.5, 8, fair));
+            const double band = ligament(p, liverTissueDistance(p));
+            return std::min({0.4 + 0.6 * ramp(0.5, 10, small), 0.6 + 0.4 * ramp(0.5, 8, fair),
+                             0.5 + 0.5 * ramp(1, 6, band)});
         };
         return s;
     }();

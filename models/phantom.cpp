@@ -3,12 +3,14 @@
 
 #include "models/apple.h"
 #include "models/bank.h"
+#include "models/coins.h"
 #include "models/dragon.h"
 #include "models/golf_ball.h"
 #include "models/heart.h"
 #include "models/kidney.h"
 #include "models/liver.h"
 #include "models/simple_shapes.h"
+#include "models/skin.h"
 #include "sim/suggest.h"
 
 namespace serosa::models {
@@ -27,14 +29,16 @@ const std::vector<Phantom>& table() {
         {{"heart", "adult heart: four chambers with true walls, great vessels, coronaries; 120 mm of muscle",
           50000},
          makeHeart},
-        {{"liver", "liver with gallbladder, ligament and the vessels' stumps; 200 mm wide", 80000},
+        {{"liver", "liver with gallbladder, ligament and the vessels' stumps; 200 mm wide", 60000},
          makeLiver},
-        {{"kidney", "right kidney, 110 mm high, with renal artery, vein and ureter", 50000}, makeKidney},
+        {{"kidney", "right kidney, 110 mm high, with renal artery, vein and ureter", 40000}, makeKidney},
+        {{"skin", "patch of skin, 80 x 80 x 20 mm: epidermis, dermis, fat, muscle", 100000}, makeSkin},
         {{"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000}, makeDragon},
         {{"golfball", "golf ball with 336 dimples, for figure 3 of CS07", 245000}, makeGolfBall},
-        {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 60000}, makeApple},
+        {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 40000}, makeApple},
         {{"bank", "hollow piggy bank with a coin slot, walls of 4 mm, for figures 1 and 4 of CSC06", 40000},
          makeBank},
+        {{"coins", "heap of 26 coins, fused where they touch, that lies in the bank", 80000}, makeCoins},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
