@@ -121,7 +121,7 @@ Status benchLarge(const Options& options, Report& report) {
     report.table({"nodes", "faces", "spacing, mm", "set-up, s", "ms a step", "steps a frame", "s a frame",
                   "ms a picture", "peak memory, MiB", "bytes a node"},
                  rows);
-    report.line("\nOne run each, 3 kPa, in a process of its own. Memory: of the whole process, with the "
+    report.line("\nOne run each, 5 kPa, in a process of its own. Memory: of the whole process, with the "
                 "surface, Mesa "
                 "and what the set-up needs for a while; so bytes a node count the faces too.");
     return {};
