@@ -49,9 +49,9 @@ double interfaceDepth(int layer, double x, double z) {
 /// How far the sides stand out at p, mm.
 double swelling(const Point& p) {
     const double depth = depthOf(p), dermis = interfaceDepth(1, p.x, p.z), fat = interfaceDepth(2, p.x, p.z);
-    const Cells lobe = lobules(p);
     const double inFat = ramp(dermis - 0.2, dermis + 0.6, depth) * ramp(fat + 0.2, fat - 0.6, depth);
-    const double round = 0.45 - 1.1 * lobe.nearest * lobe.nearest;
+    const double apart = inFat > 0 ? lobules(p).nearest : 0;
+    const double round = 0.45 - 1.1 * apart * apart;
     const double inMuscle = ramp(fat, fat + 1.0, depth);
     const double bundles = 0.18 * noise({p.x / 2.6, p.y / 1.7, p.z / 2.6});
     return (inFat * round + inMuscle * bundles) * ramp(kSkinBottom, kSkinBottom + 2, p.y);

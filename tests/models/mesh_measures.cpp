@@ -1,6 +1,8 @@
 // Brute and plain measures; a uniform grid finds the pairs of near faces.
 #include "mesh_measures.h"
 
+#include "models/phantom.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -204,6 +206,26 @@ double volumeOf(const sim::TriangleMesh& mesh) {
         sum += glm::dot(t[0], glm::cross(t[1], t[2])) / 6;
     }
     return sum;
+}
+
+Extents extentsOf(const sim::TriangleMesh& mesh) {
+    Extents box{V(1e300), V(-1e300)};
+    for (const V& p : mesh.positions) {
+        box.lowest = glm::min(box.lowest, p);
+        box.highest = glm::max(box.highest, p);
+    }
+    return box;
+}
+
+const sim::TriangleMesh& defaultPhantom(const std::string& name) {
+    static std::map<std::string, sim::TriangleMesh> made;
+    if (const auto found = made.find(name); found != made.end())
+        return found->second;
+    std::size_t faces = 0;
+    for (const models::PhantomInfo& info : models::phantoms())
+        if (info.name == name)
+            faces = info.defaultFaces;
+    return made.emplace(name, models::makePhantom(name, faces).value()).first->second;
 }
 
 } // namespace serosa::test

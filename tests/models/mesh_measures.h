@@ -38,4 +38,14 @@ std::optional<double> rayHit(const sim::TriangleMesh& mesh, const glm::dvec3& fr
 /// Signed volume by the divergence theorem.
 double volumeOf(const sim::TriangleMesh& mesh);
 
+/// Lowest and highest corner of the box that holds the mesh.
+struct Extents {
+    glm::dvec3 lowest, highest;
+    glm::dvec3 size() const { return highest - lowest; }
+};
+Extents extentsOf(const sim::TriangleMesh& mesh);
+
+/// The phantom of that name at its default face count, made once in a run of the tests.
+const sim::TriangleMesh& defaultPhantom(const std::string& name);
+
 } // namespace serosa::test
