@@ -5,6 +5,7 @@
 #include "models/bank.h"
 #include "models/coins.h"
 #include "models/dragon.h"
+#include "models/fish.h"
 #include "models/golf_ball.h"
 #include "models/heart.h"
 #include "models/kidney.h"
@@ -39,6 +40,7 @@ const std::vector<Phantom>& table() {
         {{"bank", "hollow piggy bank with a coin slot, walls of 4 mm, for figures 1 and 4 of CSC06", 40000},
          makeBank},
         {{"coins", "heap of 26 coins, fused where they touch, that lies in the bank", 80000}, makeCoins},
+        {{"fish", "perch with fins spread, 186 mm long, for the figures of CS07", 80000}, makeFish},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };

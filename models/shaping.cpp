@@ -59,4 +59,35 @@ PlaneCurve::Foot PlaneCurve::foot(const glm::dvec2& p) const {
     return best;
 }
 
+Outline::Outline(const std::vector<glm::dvec2>& control, double step) : lowest_(1e9), highest_(-1e9) {
+    // The spline runs on past both ends and is cut where it repeats.
+    const std::size_t n = control.size();
+    std::vector<TubePoint> round;
+    for (std::size_t i = 0; i < n + 3; ++i)
+        round.push_back({Point(control[(i + n - 1) % n], static_cast<double>(i)), 0});
+    for (const TubePoint& p : spline(round, step))
+        if (p.at.z >= 1 && p.at.z < static_cast<double>(n) + 1) {
+            points_.emplace_back(p.at);
+            lowest_ = glm::min(lowest_, points_.back());
+            highest_ = glm::max(highest_, points_.back());
+        }
+}
+
+double Outline::distance(const glm::dvec2& p) const {
+    const double away = glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0));
+    if (away > kReach)
+        return away;
+    double best = 1e18;
+    bool inside = false;
+    for (std::size_t i = 0, j = points_.size() - 1; i < points_.size(); j = i++) {
+        const glm::dvec2 a = points_[j], b = points_[i], ab = b - a;
+        const double t = std::clamp(glm::dot(p - a, ab) / glm::dot(ab, ab), 0.0, 1.0);
+        const glm::dvec2 q = p - a - t * ab;
+        best = std::min(best, glm::dot(q, q));
+        if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + ab.x * (p.y - a.y) / ab.y)
+            inside = !inside;
+    }
+    return inside ? -std::sqrt(best) : std::sqrt(best);
+}
+
 } // namespace serosa::models

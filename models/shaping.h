@@ -48,4 +48,18 @@ private:
     glm::dvec2 lowest_, highest_;
 };
 
+/// A plane region inside a smooth closed curve (Catmull-Rom through `control`, either way round): fins,
+/// nails.
+class Outline {
+public:
+    explicit Outline(const std::vector<glm::dvec2>& control, double step = 1.0);
+    /// Signed distance, negative inside. More than kReach outside the curve's box, the distance to that box.
+    double distance(const glm::dvec2& p) const;
+    static constexpr double kReach = 12;
+
+private:
+    std::vector<glm::dvec2> points_;
+    glm::dvec2 lowest_, highest_;
+};
+
 } // namespace serosa::models

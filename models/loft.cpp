@@ -1,0 +1,80 @@
+// Cubic Hermite interpolation of sections; the distance is the implicit function over its gradient's length.
+#include "models/loft.h"
+
+#include "base/check.h"
+
+namespace serosa::models {
+namespace {
+
+LoftSection combine(double a, const LoftSection& x, double b, const LoftSection& y) {
+    return {0, a * x.centre + b * y.centre, a * x.half + b * y.half, a * x.squareness + b * y.squareness};
+}
+
+} // namespace
+
+Loft::Loft(std::vector<LoftSection> sections, double startCap, double endCap)
+    : sections_(std::move(sections)), startCap_(startCap), endCap_(endCap), lowest_(1e9), highest_(-1e9) {
+    SEROSA_CHECK(sections_.size() >= 2 && startCap > 0 && endCap > 0, "a loft needs two sections and caps");
+    const std::size_t n = sections_.size();
+    const auto secant = [&](std::size_t i) {
+        const double h = sections_[i + 1].s - sections_[i].s;
+        return combine(1 / h, sections_[i + 1], -1 / h, sections_[i]);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i == 0 || i + 1 == n) {
+            slopes_.push_back(combine(0.5, secant(i == 0 ? 0 : n - 2), 0, sections_[0]));
+            continue;
+        }
+        const double before = sections_[i].s - sections_[i - 1].s,
+                     after = sections_[i + 1].s - sections_[i].s;
+        slopes_.push_back(
+            combine(after / (before + after), secant(i - 1), before / (before + after), secant(i)));
+    }
+    for (const LoftSection& section : sections_) {
+        lowest_ = glm::min(lowest_, Point(section.centre - 1.1 * section.half, section.s - startCap));
+        highest_ = glm::max(highest_, Point(section.centre + 1.1 * section.half, section.s + endCap));
+    }
+}
+
+LoftSection Loft::at(double s) const {
+    s = std::clamp(s, sections_.front().s, sections_.back().s);
+    std::size_t i = 0;
+    while (i + 2 < sections_.size() && s > sections_[i + 1].s)
+        ++i;
+    const double h = sections_[i + 1].s - sections_[i].s, t = (s - sections_[i].s) / h;
+    const double t2 = t * t, t3 = t2 * t;
+    const LoftSection values = combine(2 * t3 - 3 * t2 + 1, sections_[i], 3 * t2 - 2 * t3, sections_[i + 1]);
+    const LoftSection bends = combine((t3 - 2 * t2 + t) * h, slopes_[i], (t3 - t2) * h, slopes_[i + 1]);
+    LoftSection out = combine(1, values, 1, bends);
+    out.s = s;
+    return out;
+}
+
+double Loft::radius(const Point& p) const {
+    const LoftSection section = at(p.z);
+    const double beyond = p.z < section.s ? (section.s - p.z) / startCap_ : (p.z - section.s) / endCap_;
+    const glm::dvec2 q = glm::abs(glm::dvec2(p) - section.centre) / section.half;
+    const double n = section.squareness;
+    const double ring = n == 2 ? glm::length(q) : std::pow(std::pow(q.x, n) + std::pow(q.y, n), 1 / n);
+    return std::hypot(ring, beyond);
+}
+
+double Loft::distance(const Point& p) const {
+    const double away = glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0));
+    if (away > 30)
+        return away;
+    constexpr double e = 1e-4;
+    const double r = radius(p);
+    const Point g = Point(radius(p + Point(e, 0, 0)) - r, radius(p + Point(0, e, 0)) - r,
+                          radius(p + Point(0, 0, e)) - r) /
+                    e;
+    const double first = (r - 1) / std::max(glm::length(g), 1e-6);
+    if (r >= 1)
+        return first;
+    // Deep inside, the first order overestimates: the least half size bounds the depth from below.
+    const LoftSection section = at(p.z);
+    const double least = std::min({section.half.x, section.half.y, startCap_, endCap_});
+    return std::max(first, -(1 - r) * least - 1);
+}
+
+} // namespace serosa::models
