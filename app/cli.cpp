@@ -181,7 +181,8 @@ void addVerify(CLI::App& app, Choice& choice) {
     };
     auto given = std::make_shared<Arguments>();
     command->add_option("groups", given->groups, "groups to run; all without")->type_name("GROUP");
-    command->add_option("--out", given->out, "folder for verify.json (docs/cli.md)")->type_name("DIR");
+    command->add_option("--out", given->out, "folder for verify.json and report.html (docs/cli.md)")
+        ->type_name("DIR");
     command->add_flag("--full", given->full, "every figure at its full length (slow)");
     command->add_flag("--allow-skip", given->allowSkip, "a check that cannot run here is no failure");
     command

@@ -163,8 +163,8 @@ void addRepairFlag(CLI::App& command, bool& repair) {
 }
 
 void addRun(CLI::App& app, std::function<Result<int>()>& action) {
-    CLI::App* command =
-        app.add_subcommand("run", "Simulate a scene or a model; write pictures, surfaces, summary.json");
+    CLI::App* command = app.add_subcommand(
+        "run", "Simulate a scene or a model; write pictures, surfaces, summary.json, report.html");
     auto given = std::make_shared<RunArguments>();
     addSceneOptions(*command, *given);
     command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")

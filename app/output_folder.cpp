@@ -15,7 +15,7 @@ bool isResult(const std::string& name) {
         return name.starts_with(prefix) && name.ends_with(suffix);
     };
     return framed("frame_", ".png") || framed("surface_", ".ply") || name == "contact_sheet.png" ||
-           name == "summary.json";
+           name == "summary.json" || name == "report.html";
 }
 
 fs::path parentOf(const fs::path& path) {

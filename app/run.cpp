@@ -5,6 +5,7 @@
 
 #include "app/output_folder.h"
 #include "app/progress.h"
+#include "app/run_report.h"
 #include "app/run_setup.h"
 #include "app/scene_player.h"
 #include "app/summary.h"
@@ -18,6 +19,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <ostream>
 #include <set>
 
@@ -47,6 +50,14 @@ std::string numbered(const char* format, int frame) {
     char name[64];
     std::snprintf(name, sizeof name, format, frame);
     return name;
+}
+
+Result<std::string> bytesOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream.is_open() || stream.bad() || bytes.empty())
+        return Error{file.string() + ": was written, but cannot be read back for report.html"};
+    return bytes;
 }
 
 class Run {
@@ -101,6 +112,20 @@ public:
             return {};
         const render::Image sheet = render::contactSheet(tiles_, captions_, parts_.scene.output.sheetColumns);
         return render::writePng(sheet, folder_.file("contact_sheet.png"));
+    }
+
+    /// report.html of `summary`, with pictures that were written before.
+    Status report(const nlohmann::ordered_json& summary) {
+        RunPictures pictures;
+        if (!tiles_.empty()) {
+            SEROSA_ASSIGN(pictures.contactSheet, bytesOf(folder_.path() / "contact_sheet.png"));
+        }
+        for (const int frame : reportFrames(summary, pictureFrames_)) {
+            SEROSA_ASSIGN(std::string png, bytesOf(folder_.path() / numbered("frame_%06d.png", frame)));
+            pictures.frames.emplace_back(frame, std::move(png));
+        }
+        return writeFileAtomically(folder_.file("report.html"),
+                                   std::string_view(runReport(summary, pictures, failure_)));
     }
 
     RunRecord& record() { return record_; }
@@ -205,6 +230,7 @@ private:
         if (!written)
             return {};
         ++record_.picturesWritten;
+        pictureFrames_.push_back(frame);
         return render::writePng(image, folder_.file(numbered("frame_%06d.png", frame)));
     }
 
@@ -244,6 +270,7 @@ private:
     render::CameraView camera_;
     RunRecord record_;
     std::set<int> surfaceFrames_, sheetFrames_;
+    std::vector<int> pictureFrames_;                    // written
     std::vector<std::vector<glm::dvec3>> restSurfaces_; // m: the mapped surfaces at rest
     std::vector<render::Image> tiles_;
     std::vector<std::string> captions_;
@@ -303,12 +330,16 @@ Result<int> runScene(const RunOptions& options, std::ostream& out) {
     record.times.setup = times.setup;
     record.times.total = times.total;
     const nlohmann::ordered_json summary = summaryJson(record);
-    SEROSA_TRY(writeFileAtomically(folder.file("summary.json"), std::string_view(summary.dump(1) + "\n")));
+    // JSON is UTF-8; a file name need not be.
+    const std::string text =
+        summary.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    SEROSA_TRY(writeFileAtomically(folder.file("summary.json"), std::string_view(text)));
+    SEROSA_TRY(run.report(summary));
     folder.keep();
 
     out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten
-        << " surfaces, summary.json to " << folder.path().string() << "; largest displacement "
-        << shortNumber(1e3 * record.largestDisplacement) << " mm, "
+        << " surfaces, summary.json and report.html to " << folder.path().string()
+        << "; largest displacement " << shortNumber(1e3 * record.largestDisplacement) << " mm, "
         << shortNumber(summary["timing"]["real_time_factor"].get<double>()) << " x real time\n";
     if (record.end == "not finite")
         return Error{run.failure(), exitCheckFailed};

@@ -3,7 +3,9 @@
 #include "app/verify.h"
 
 #include "app/organ_setup.h"
+#include "app/verify_html.h"
 #include "app/verify_report.h"
+#include "app/version.h"
 #include "base/atomic_file.h"
 #include "sim/suggest.h"
 
@@ -47,6 +49,28 @@ Status makeFolder(const std::string& folder) {
                          ": choose another folder with --out"};
     }
     return {};
+}
+
+/// As `--inject` has it; empty for none.
+std::string injectionText(const Injection& injection) {
+    switch (injection.fault) {
+    case Fault::none:
+        return "";
+    case Fault::stiffness:
+        return "stiffness=" + shortNumber(injection.factor);
+    case Fault::dropSpring:
+        return "drop-spring";
+    case Fault::staleNormal:
+        return "stale-normal";
+    }
+    return "";
+}
+
+Status writeFiles(const fs::path& folder, const std::vector<GroupChecks>& results, bool allowSkip,
+                  const VerifyPageFacts& facts) {
+    const nlohmann::ordered_json json = verifyJson(results, allowSkip);
+    SEROSA_TRY(writeFileAtomically(folder / "verify.json", std::string_view(json.dump(1) + "\n")));
+    return writeFileAtomically(folder / "report.html", std::string_view(verifyReport(json, facts)));
 }
 
 } // namespace
@@ -134,6 +158,11 @@ int runVerify(const std::vector<std::string>& names, const VerifyOptions& option
     }
 
     std::vector<GroupChecks> results;
+    VerifyPageFacts facts{programVersion(),
+                          context ? context->info().renderer : "",
+                          injectionText(options.inject),
+                          options.full,
+                          {}};
     std::size_t failed = 0, total = 0;
     for (const VerifyGroup* group : *chosen) {
         CheckList list;
@@ -154,18 +183,15 @@ int runVerify(const std::vector<std::string>& names, const VerifyOptions& option
             ++failed;
         }
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        facts.seconds.emplace_back(group->name, took.count());
         out << "  " << list.checks().size() - std::size_t(rejected) << " of " << list.checks().size()
             << " passed in " << shortNumber(took.count()) << " s\n";
     }
-    if (!folder.empty()) {
-        const std::string text = verifyJson(results, allowSkip).dump(1) + "\n";
-        if (const Status written =
-                writeFileAtomically(fs::path(folder) / "verify.json", std::string_view(text));
-            !written.ok()) {
+    if (!folder.empty())
+        if (const Status written = writeFiles(folder, results, allowSkip, facts); !written.ok()) {
             printError(written.error());
             return written.error().exitCode;
         }
-    }
     out << (failed == 0 ? "all " + std::to_string(total) + " checks passed"
                         : std::to_string(failed) + " failed")
         << "\n";

@@ -68,8 +68,8 @@ const std::vector<VerifyGroup>& verifyGroups();
 Status verifySolver(const VerifyOptions& options, CheckList& checks);  // app/verify_solver.cpp
 Status verifyMapping(const VerifyOptions& options, CheckList& checks); // app/verify_mapping.cpp
 
-/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json if folder is not
-/// empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).
+/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json and report.html if
+/// folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).
 int runVerify(const std::vector<std::string>& names, const VerifyOptions& options, const std::string& folder,
               bool allowSkip, std::ostream& out);
 

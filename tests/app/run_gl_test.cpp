@@ -1,10 +1,12 @@
 // `serosa run` on a small solid: what it writes, the same bytes twice, the same with both solvers, a full
 // disk.
 
+#include "app/html_page.h"
 #include "sim/mesh_reader.h"
 #include "sim/mesh_writer.h"
 #include "sim/up_axis.h"
 #include "tests/app/child.h"
+#include "tests/app/page_reader.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -61,9 +63,9 @@ TEST_F(GlRun, WritesWhatTheReferenceSays) {
     const ChildResult result = run("a");
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    EXPECT_EQ(written("a"),
-              (std::set<std::string>{"frame_000003.png", "frame_000006.png", "contact_sheet.png",
-                                     "surface_000000.ply", "surface_000006.ply", "summary.json"}));
+    EXPECT_EQ(written("a"), (std::set<std::string>{"frame_000003.png", "frame_000006.png",
+                                                   "contact_sheet.png", "surface_000000.ply",
+                                                   "surface_000006.ply", "summary.json", "report.html"}));
     const nlohmann::json json = summary("a");
     ASSERT_FALSE(json.is_discarded());
     EXPECT_EQ(json["solver"], "fragment");
@@ -104,9 +106,45 @@ TEST_F(GlRun, GivesTheSameBytesTwice) {
     second.erase("timing");
     EXPECT_EQ(first, second);
     for (const std::string& name : written("a"))
-        if (name != "summary.json") {
+        if (name != "summary.json" && name != "report.html") {
             EXPECT_EQ(readWhole(folder_.path() / "a" / name), readWhole(folder_.path() / "b" / name)) << name;
         }
+}
+
+TEST_F(GlRun, ReportIsCompleteAndTheSameTwice) {
+    std::vector<std::string> pages;
+    for (const char* out : {"a", "b"}) {
+        ASSERT_EQ(run(out).exitCode, 0);
+        pages.push_back(readWhole(folder_.path() / out / "report.html"));
+        const PageReader page(pages.back());
+        ASSERT_EQ(page.error(), "");
+        std::vector<std::string> sources;
+        for (const Element* image : page.all("img"))
+            sources.push_back(image->attribute("src"));
+        // Rest, frame 6: pictures 3 and 6; the largest displacement is that of the last.
+        const auto embedded = [&](const char* name) {
+            return "data:image/png;base64," + base64(readWhole(folder_.path() / out / name));
+        };
+        EXPECT_EQ(sources,
+                  (std::vector<std::string>{embedded("contact_sheet.png"), embedded("frame_000006.png")}));
+        EXPECT_NE(page.byId("plot-force"), nullptr);
+        const Element* timing = page.byId("timing");
+        ASSERT_NE(timing, nullptr);
+        pages.back().erase(timing->begin, timing->end - timing->begin);
+    }
+    EXPECT_EQ(pages[0], pages[1]);
+}
+
+// JSON and HTML are UTF-8, names of files are bytes.
+TEST_F(GlRun, TakesAFileNameThatIsNoUtf8) {
+    const std::string name = "b\xFFll.ply";
+    fs::copy_file(folder_.path() / "ball.ply", folder_.path() / name);
+    const ChildResult result =
+        serosa({"run", "--model", name, "--length-unit", "mm", "--frames", "2", "--nodes", "200", "--size",
+                "64x48", "--gl", glChoice(), "--out", "b"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(summary("b")["organ"]["model"], "b\uFFFDll.ply");
+    EXPECT_EQ(PageReader(readWhole(folder_.path() / "b" / "report.html")).error(), "");
 }
 
 TEST_F(GlRun, SurfacesComeBackInUnitFrameAndOrderOfTheInput) {
@@ -229,10 +267,11 @@ TEST_F(GlRun, SeveralOrgansMoveInLockstep) {
         return json["tools"][0]["force"][5]["N"][1].get<double>();
     };
     EXPECT_NEAR(force(two), force(soft) + force(stiff), 1e-9);
-    EXPECT_EQ(written("two"), (std::set<std::string>{
-                                  "frame_000003.png", "frame_000006.png", "contact_sheet.png",
-                                  "surface_left_one_000000.ply", "surface_left_one_000006.ply",
-                                  "surface_stiff_000000.ply", "surface_stiff_000006.ply", "summary.json"}));
+    EXPECT_EQ(written("two"),
+              (std::set<std::string>{"frame_000003.png", "frame_000006.png", "contact_sheet.png",
+                                     "surface_left_one_000000.ply", "surface_left_one_000006.ply",
+                                     "surface_stiff_000000.ply", "surface_stiff_000006.ply", "summary.json",
+                                     "report.html"}));
     EXPECT_EQ(readWhole(folder_.path() / "two" / "surface_left_one_000006.ply"),
               readWhole(folder_.path() / "soft" / "surface_000006.ply"));
     EXPECT_EQ(readWhole(folder_.path() / "two" / "surface_stiff_000006.ply"),

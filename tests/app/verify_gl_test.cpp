@@ -2,6 +2,7 @@
 // report has the form that docs/cli.md gives.
 
 #include "tests/app/child.h"
+#include "tests/app/page_reader.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -63,6 +64,12 @@ TEST(GlVerify, StaleNormalFailsTheMappingGroup) {
     for (const nlohmann::json& check : report["mapping"])
         failed += check["pass"] == false;
     EXPECT_GT(failed, 0);
+    const std::string text = readWhole(folder.path() / "v" / "report.html");
+    const PageReader page(text);
+    EXPECT_EQ(page.error(), "");
+    EXPECT_EQ(page.all("tr", "failed", page.byId("failures")).size(), std::size_t(failed));
+    EXPECT_EQ(page.all("tr", "check", page.byId("group-1")).size(), report["mapping"].size());
+    EXPECT_NE(page.all("div", "verdict").at(0)->text.find("--inject stale-normal"), std::string::npos);
 }
 
 TEST(GlVerify, SpringFaultsFailTheSolverGroup) {

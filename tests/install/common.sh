@@ -53,7 +53,7 @@ programWorks() { # SEROSA
     printf '%s\n' 'schema = 1' 'duration = "0.05 s"' '[[organ]]' 'model = "ball.ply"' 'length_unit = "mm"' \
       'nodes = 200' '[output]' 'size = [64, 64]' >ball.toml
     hidden "$1" run ball.toml --out result >run.txt || fail "serosa run: $(cat run.txt)"
-    for file in frame_000003.png contact_sheet.png summary.json; do
+    for file in frame_000003.png contact_sheet.png summary.json report.html; do
       [ -s "result/$file" ] || fail "serosa run left no $file: $(ls result)"
     done
   ) || exit 1
