@@ -52,7 +52,7 @@ section > figure:last-child, .pair > figure { margin-bottom: 0.5rem; }
 .verdict.warning strong, .verdict.warning .mark { color: var(--warning); }
 .verdict.bad strong, .verdict.bad .mark { color: var(--bad); }
 
-.key { display: grid; grid-template-columns: repeat(auto-fit, minmax(9.2rem, 1fr)); gap: 1.1rem 1.5rem; margin: 1.6rem 0 0; }
+.key { display: grid; grid-template-columns: repeat(auto-fill, minmax(9.2rem, 1fr)); gap: 1.1rem 1.5rem; margin: 1.6rem 0 0; }
 .key div { border-top: 1px solid var(--rule); padding-top: 0.5rem; min-width: 0; }
 .key dt { color: var(--soft); font-size: 0.85rem; }
 .key dd { margin: 0; overflow-wrap: anywhere; }
