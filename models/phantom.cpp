@@ -7,6 +7,7 @@
 #include "models/dragon.h"
 #include "models/fish.h"
 #include "models/golf_ball.h"
+#include "models/hand.h"
 #include "models/heart.h"
 #include "models/kidney.h"
 #include "models/liver.h"
@@ -41,6 +42,8 @@ const std::vector<Phantom>& table() {
          makeBank},
         {{"coins", "heap of 26 coins, fused where they touch, that lies in the bank", 80000}, makeCoins},
         {{"fish", "perch with fins spread, 186 mm long, for the figures of CS07", 80000}, makeFish},
+        {{"hand", "open right hand, 188 mm from wrist to fingertip, for the figures of CS07", 80000},
+         makeHand},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
