@@ -115,7 +115,7 @@ double kidneyBodyDistance(const Point& p) {
     // Faint lobes remain from before birth.
     d += 0.7 * noise(p / 17.0 + 2.0) + 0.25 * noise(p / 7.0 + 80.0);
     const double slit = ellipsoid(p - Point(30, 0, -0.5), {20, 19, 9});
-    return 0.9 * carve(d, slit, 11);
+    return 0.86 * carve(d, slit, 11);
 }
 
 const Solid& kidneySolid() {

@@ -91,7 +91,7 @@ double ligament(const Point& p, double tissue) {
 
 double porta(const Point& p) {
     const double pad = capsule(p, parts().padFrom, parts().padTo, 8.5, 7.5);
-    return pad + 0.8 * noise(p / 7.0 + 60.0);
+    return 0.85 * (pad + 0.8 * noise(p / 7.0 + 60.0));
 }
 
 double cava(const Point& p) {

@@ -63,7 +63,7 @@ double distance(const Point& p) {
     if (std::abs(sides) < 2 && std::abs(p.y) < 14)
         sides -= swelling(p);
     const double block = common(sides, kSkinBottom - p.y, 0.8);
-    return 0.8 * common(block, top, 0.8);
+    return 0.69 * common(block, top, 0.8);
 }
 
 Colour layerColour(const Point& p) {

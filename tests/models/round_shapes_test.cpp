@@ -1,8 +1,11 @@
-// Golf ball and apple against what is known of them without their code.
+// Golf ball and apple against what is known of them without their code, and all solids' slopes.
 #include "mesh_measures.h"
 #include "models/apple.h"
 #include "models/golf_ball.h"
+#include "models/kidney.h"
+#include "models/liver.h"
 #include "models/phantom.h"
+#include "models/skin.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +13,29 @@ namespace serosa::models {
 namespace {
 
 const double kPi = glm::radians(180.0);
+
+TEST(Solid, DistancesAreNoSteeperThanTheMesherAssumes) {
+    for (const Solid* solid : {&liverSolid(), &kidneySolid(), &skinSolid(), &golfBallSolid(), &appleSolid(),
+                               &appleSolid(AppleKind::thick)}) {
+        const auto& distance = solid->source.distance;
+        const Point lowest = solid->source.lowest, extent = solid->source.highest - lowest;
+        double steepest = 0;
+        for (int i = 0; i < 20000; ++i) { // an even sequence in the box
+            const Point share =
+                glm::fract(static_cast<double>(i) * Point(0.8191725134, 0.6710436067, 0.5497004779));
+            const Point p = lowest + share * extent;
+            const double d = distance(p);
+            if (std::abs(d) > 6)
+                continue;
+            constexpr double e = 1e-4;
+            const Point slope(distance(p + Point(e, 0, 0)) - d, distance(p + Point(0, e, 0)) - d,
+                              distance(p + Point(0, 0, e)) - d);
+            steepest = std::max(steepest, glm::length(slope) / e);
+        }
+        EXPECT_GT(steepest, 0.8) << solid->name;
+        EXPECT_LT(steepest, 1.15) << solid->name;
+    }
+}
 
 TEST(GolfBall, HasTheRadiusAndVolumeOfABallLessItsDimples) {
     const sim::TriangleMesh& mesh = test::defaultPhantom("golfball");
