@@ -73,7 +73,9 @@ double Loft::distance(const Point& p) const {
         return first;
     // Deep inside, the first order overestimates: the least half size bounds the depth from below.
     const LoftSection section = at(p.z);
-    const double least = std::min({section.half.x, section.half.y, startCap_, endCap_});
+    const double ends = std::min(startCap_ + std::max(0.0, p.z - sections_.front().s),
+                                 endCap_ + std::max(0.0, sections_.back().s - p.z));
+    const double least = std::min({section.half.x, section.half.y, ends});
     return std::max(first, -(1 - r) * least - 1);
 }
 

@@ -13,6 +13,7 @@
 #include "models/liver.h"
 #include "models/simple_shapes.h"
 #include "models/skin.h"
+#include "models/torso.h"
 #include "sim/suggest.h"
 
 namespace serosa::models {
@@ -44,6 +45,7 @@ const std::vector<Phantom>& table() {
         {{"fish", "perch with fins spread, 186 mm long, for the figures of CS07", 80000}, makeFish},
         {{"hand", "open right hand, 188 mm from wrist to fingertip, for the figures of CS07", 80000},
          makeHand},
+        {{"torso", "trunk of a man, 600 mm high, whose chest CS07 peels in figure 1", 25000}, makeTorso},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
