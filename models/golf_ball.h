@@ -8,7 +8,7 @@ namespace serosa::models {
 constexpr double kGolfBallRadius = 21.35; // mm, between the dimples
 constexpr int kDimples = 336;
 constexpr double kDimpleRadius = 1.9; // mm, of the rim
-constexpr double kDimpleDepth = 0.26;  // mm, below the ball's surface
+constexpr double kDimpleDepth = 0.26; // mm, below the ball's surface
 
 /// Unit vectors to the middles of the dimples.
 const std::vector<Point>& dimpleDirections();
