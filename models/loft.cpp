@@ -1,4 +1,4 @@
-// Cubic Hermite interpolation of sections; the distance is the implicit function over its gradient's length.
+// A cubic spline through the sections; the distance is the implicit function over its gradient's length.
 #include "models/loft.h"
 
 #include "base/check.h"
@@ -15,21 +15,27 @@ LoftSection combine(double a, const LoftSection& x, double b, const LoftSection&
 Loft::Loft(std::vector<LoftSection> sections, double startCap, double endCap)
     : sections_(std::move(sections)), startCap_(startCap), endCap_(endCap), lowest_(1e9), highest_(-1e9) {
     SEROSA_CHECK(sections_.size() >= 2 && startCap > 0 && endCap > 0, "a loft needs two sections and caps");
+    // Slopes of the cubic spline with continuous curvature whose ends run along the axis, as the caps do
+    // (elimination from the first interior section on, then back).
     const std::size_t n = sections_.size();
-    const auto secant = [&](std::size_t i) {
-        const double h = sections_[i + 1].s - sections_[i].s;
-        return combine(1 / h, sections_[i + 1], -1 / h, sections_[i]);
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i == 0 || i + 1 == n) {
-            slopes_.push_back(combine(0.5, secant(i == 0 ? 0 : n - 2), 0, sections_[0]));
-            continue;
+    const LoftSection none{0, {0, 0}, {0, 0}, 0};
+    slopes_.assign(n, none);
+    std::vector<double> pivot(n, 1.0);
+    const auto gap = [&](std::size_t i) { return sections_[i + 1].s - sections_[i].s; };
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double a = 1 / gap(i - 1), b = 1 / gap(i);
+        const LoftSection before = combine(3 * a * a, sections_[i], -3 * a * a, sections_[i - 1]);
+        const LoftSection after = combine(3 * b * b, sections_[i + 1], -3 * b * b, sections_[i]);
+        pivot[i] = 2 * (a + b);
+        slopes_[i] = combine(1, before, 1, after);
+        if (i > 1) {
+            const double share = a / pivot[i - 1];
+            pivot[i] -= share * a;
+            slopes_[i] = combine(1, slopes_[i], -share, slopes_[i - 1]);
         }
-        const double before = sections_[i].s - sections_[i - 1].s,
-                     after = sections_[i + 1].s - sections_[i].s;
-        slopes_.push_back(
-            combine(after / (before + after), secant(i - 1), before / (before + after), secant(i)));
     }
+    for (std::size_t i = n - 2; i >= 1; --i)
+        slopes_[i] = combine(1 / pivot[i], slopes_[i], -1 / (gap(i) * pivot[i]), slopes_[i + 1]);
     for (const LoftSection& section : sections_) {
         lowest_ = glm::min(lowest_, Point(section.centre - 1.1 * section.half, section.s - startCap));
         highest_ = glm::max(highest_, Point(section.centre + 1.1 * section.half, section.s + endCap));

@@ -17,8 +17,9 @@ struct LoftSection {
 
 class Loft {
 public:
-    /// At least two sections with growing s. Beyond the first and the last the body is closed by half
-    /// ellipsoids of the lengths `startCap` and `endCap` (greater than 0).
+    /// At least two sections with growing s. The body ends along the axis at the first and the last. Beyond
+    /// the first and the last the body is closed by half ellipsoids of the lengths `startCap` and `endCap`
+    /// (greater than 0).
     Loft(std::vector<LoftSection> sections, double startCap, double endCap);
 
     /// Distance at (x, y) in the section's plane at s along the axis: exact to first order at the surface;

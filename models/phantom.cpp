@@ -11,6 +11,7 @@
 #include "models/heart.h"
 #include "models/kidney.h"
 #include "models/liver.h"
+#include "models/mask.h"
 #include "models/simple_shapes.h"
 #include "models/skin.h"
 #include "models/torso.h"
@@ -46,6 +47,7 @@ const std::vector<Phantom>& table() {
         {{"hand", "open right hand, 188 mm from wrist to fingertip, for the figures of CS07", 80000},
          makeHand},
         {{"torso", "trunk of a man, 600 mm high, whose chest CS07 peels in figure 1", 25000}, makeTorso},
+        {{"mask", "face mask that lies under the skin of the torso's chest", 10000}, makeMask},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };

@@ -87,7 +87,7 @@ double relief(const Point& m) {
     const double forward = ramp(-10, 30, m.z);
     if (m.y > 150) {
         const auto bone = t.collar.foot(front);
-        const double on = ramp(0, 0.12, bone.along) * ramp(1, 0.8, bone.along) * ramp(-45, -15, m.z);
+        const double on = ramp(0, 0.12, bone.along) * ramp(1, 0.6, bone.along) * ramp(-45, -15, m.z);
         r -= 5.5 * bell(bone.distance / 16) * on;
         r += 5 * bell(glm::length(front - glm::dvec2(72, 232)) / 30) * ramp(-30, 0, m.z); // above it
         r += 3 * bell(glm::length(front - glm::dvec2(108, 188)) / 34) * forward;          // below it
