@@ -8,33 +8,38 @@
 namespace serosa::models {
 namespace {
 
-const Point kPlace(0, 84, 50); // of the face's origin in the torso
-const Point kLowest = kPlace + Point(-66, -90, -34), kHighest = kPlace + Point(66, 86, 56);
+/// Where the face lies in the torso: it leans back as the chest does.
+const Frame& place() {
+    static const Frame frame({0, 70, 54}, {0, 1, -0.16}, {0, 0, 1});
+    return frame;
+}
+const Point kLowest(-66, -20, 10), kHighest(66, 160, 120);
 constexpr double kBack = -20; // z of the rim
 
 struct Face {
     Tube nose{spline({{{0, 24, 24}, 7}, {{0, 10, 29}, 6.5}, {{0, -4, 35}, 8}, {{0, -13, 38.5}, 9.5}}, 1.0)};
     // Of the side x >= 0.
-    Tube brow{spline({{{5, 23, 25}, 5}, {{17, 28, 25}, 6.5}, {{32, 27, 19}, 6}, {{46, 17, 7}, 4}}, 1.0)};
-    Tube upperLip{spline({{{-24, -42, 19}, 1.6},
-                          {{-13, -38.5, 26}, 4},
-                          {{-5, -35.8, 29.5}, 4.6},
-                          {{0, -37, 29.5}, 4.6},
-                          {{5, -35.8, 29.5}, 4.6},
-                          {{13, -38.5, 26}, 4},
-                          {{24, -42, 19}, 1.6}},
+    Tube brow{
+        spline({{{5, 23, 21.8}, 4.4}, {{17, 28, 21.8}, 5.9}, {{32, 27, 15.8}, 5.4}, {{46, 17, 2}, 3}}, 1.0)};
+    Tube upperLip{spline({{{-24, -42, 16.4}, 1.3},
+                          {{-13, -38.5, 23.4}, 3.7},
+                          {{-5, -35.8, 26.9}, 4.3},
+                          {{0, -37, 26.9}, 4.3},
+                          {{5, -35.8, 26.9}, 4.3},
+                          {{13, -38.5, 23.4}, 3.7},
+                          {{24, -42, 16.4}, 1.3}},
                          1.0)};
-    Tube lowerLip{spline({{{-24, -42, 19}, 1.6},
-                          {{-13, -45.5, 25}, 4.6},
-                          {{0, -47.5, 28}, 6},
-                          {{13, -45.5, 25}, 4.6},
-                          {{24, -42, 19}, 1.6}},
+    Tube lowerLip{spline({{{-24, -42, 15.8}, 1.3},
+                          {{-13, -45.5, 21.8}, 4.3},
+                          {{0, -47.5, 24.8}, 5.7},
+                          {{13, -45.5, 21.8}, 4.3},
+                          {{24, -42, 15.8}, 1.3}},
                          1.0)};
-    Tube slit{spline({{{-22, -42, 23}, 0.9},
-                      {{-12, -41.5, 30}, 1.2},
-                      {{0, -41.8, 34}, 1.3},
-                      {{12, -41.5, 30}, 1.2},
-                      {{22, -42, 23}, 0.9}},
+    Tube slit{spline({{{-22, -42, 20.2}, 1},
+                      {{-12, -41.5, 27.2}, 1.2},
+                      {{0, -41.8, 31.2}, 1.3},
+                      {{12, -41.5, 27.2}, 1.2},
+                      {{22, -42, 20.2}, 1}},
                      1.0)};
     Outline eye{{{10.5, 5}, {15, 10}, {23, 13.2}, {31, 12.2}, {39.5, 7.2}, {33, 4}, {24.5, 2.2}, {16, 2.8}}};
 };
@@ -52,7 +57,7 @@ double head(const Point& q, const Point& m) {
     double d = ellipsoid(q - Point(0, 10, -30), {55, 70, 58}, 80);
     d = blend(d, ellipsoid(q - Point(0, -48, -12), {32, 32, 34}, 80), 34); // jaw and chin
     d = blend(d, ellipsoid(q - Point(0, -60, 14), {13, 10, 9}, 40), 14);
-    d = blend(d, ellipsoid(m - Point(34, -12, 8), {16, 14, 15}, 40), 18); // cheek
+    d = blend(d, ellipsoid(m - Point(33, -12, 6), {17, 14, 14}, 40), 18); // cheek
     d = carve(d, ellipsoid(m - Point(25, 8, 32), {19, 11.5, 15}, 40), 12);
     return d;
 }
@@ -76,7 +81,7 @@ double eyeHole(const Point& m) {
 }
 
 double shell(const Point& p) {
-    const Point q = p - kPlace, m = mirrored(q);
+    const Point q = place().local(p), m = mirrored(q);
     // The inside is that of a plain head, so that the wall is thicker under nose, brows and lips only.
     double d = carve(skin(q), head(q, m) + kMaskWall, 1.5);
     d = common(d, kBack - q.z, 2.5);
@@ -84,7 +89,7 @@ double shell(const Point& p) {
 }
 
 glm::u8vec3 colour(const Point& p) {
-    const Point q = p - kPlace, m = mirrored(q);
+    const Point q = place().local(p), m = mirrored(q);
     const double fine = noise(p / 2.5), broad = layeredNoise(p / 18.0, 2);
     const Colour gold(222, 176, 74), pale(244, 212, 128), dark(120, 78, 34), red(150, 40, 36);
     Colour c = mix(gold, pale, 0.4 + 0.4 * broad);
@@ -99,7 +104,7 @@ glm::u8vec3 colour(const Point& p) {
 }
 
 double wantedSize(const Point& p) {
-    const Point q = p - kPlace, m = mirrored(q);
+    const Point q = place().local(p), m = mirrored(q);
     const double lips = std::min(face().upperLip.distance(q), face().lowerLip.distance(q));
     const double fine = std::min({std::abs(eyeHole(m)), lips, face().nose.distance(q)});
     return q.z < -15 ? 1 : 0.6 + 0.6 * ramp(1, 14, fine);
