@@ -27,7 +27,7 @@ double star(double x, double y) { // signed distance, about
 double relief(const Point& q) { // 0 to 1: field, and rim or star
     const double r = std::hypot(q.x, q.z), d = star(q.x, q.z);
     const double dome = std::clamp(-d / 2.2, 0.0, 1.0);
-    return std::max(ramp(kRim - 0.5, kRim + 0.3, r), ramp(0.35, -0.35, d) * (0.55 + 0.45 * dome));
+    return std::max(ramp(kRim - 0.8, kRim + 0.4, r), ramp(0.5, -0.5, d) * (0.55 + 0.45 * dome));
 }
 
 struct Laid {
@@ -57,11 +57,7 @@ double disc(const Point& q) {
 
 /// How far the field lies below the rim at a point near the coin's surface.
 double sunk(const Point& q) {
-    const double beside = std::hypot(q.x, q.z) - kCoinRadius + kEdge;
-    const double above = std::abs(q.y) - 0.5 * kCoinThickness + kEdge;
-    if (beside > 0 || above < -1)
-        return 0;
-    return kRelief * (1 - relief(q)) * ramp(-1, 0, above) * ramp(0, -0.5, beside);
+    return std::hypot(q.x, q.z) < kCoinRadius ? kRelief * (1 - relief(q)) : 0.0;
 }
 
 Point local(const Laid& coin, const Point& p) {
@@ -136,7 +132,7 @@ double coinsDistance(const Point& p) {
     for (const Laid& coin : laid()) {
         const double away = glm::length(p - coin.at) - std::hypot(kCoinRadius, 0.5 * kCoinThickness);
         const Point q = local(coin, p);
-        const double own = away > 6 ? away : disc(q);
+        const double own = away > 12 ? away : disc(q);
         d = blend(d, own, kFillet);
         if (own < nearest)
             second = nearest, nearest = own, onNearest = q;
@@ -144,7 +140,7 @@ double coinsDistance(const Point& p) {
             second = std::min(second, own);
     }
     // No relief where another coin lies on this one: it would enclose a hollow.
-    return std::abs(d) > 3 ? d : d + sunk(onNearest) * ramp(1.8, 4.0, second);
+    return std::abs(d) > 6 ? d : d + sunk(onNearest) * ramp(1.8, 4.0, second);
 }
 
 const Solid& coinsSolid() {

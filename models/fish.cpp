@@ -185,7 +185,7 @@ double scaled(const Point& p) {
 double trunk(const Point& m) {
     const Fish& f = fish();
     double d = f.body.distance({m.y, m.z, m.x});
-    if (std::abs(d) > 4)
+    if (std::abs(d) > 8)
         return d;
     const glm::dvec2 side(m.x, m.y);
     if (m.x < -35) {
@@ -199,7 +199,7 @@ double trunk(const Point& m) {
         // Lips about a slit.
         const auto slit = f.mouth.foot(side);
         d -= 0.7 * bell(slit.distance / 3.6) * ramp(1, 0.75, slit.along);
-        d += 1.9 * bell(slit.distance / 1.35) * ramp(1, 0.85, slit.along);
+        d += 1.5 * bell(slit.distance / 1.6) * ramp(1, 0.85, slit.along);
         // Nostril.
         d += 0.8 * bell(glm::length(side - glm::dvec2(-77.5, 5.5)) / 1.3);
     }

@@ -263,8 +263,8 @@ double nails(const Point& p) {
 
 double solid(const Point& p) {
     double d = flesh(p);
-    if (std::abs(d) < 8)
-        d += (relief(p) + nails(p)) * ramp(8, 3, std::abs(d));
+    if (std::abs(d) < 10)
+        d += (relief(p) + nails(p));
     return common(d, kCut - p.y, 1.5);
 }
 

@@ -67,7 +67,7 @@ double Loft::radius(const Point& p) const {
 
 double Loft::distance(const Point& p) const {
     const double away = glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0));
-    if (away > 30)
+    if (away > 60) // farther than any blend looks
         return away;
     constexpr double e = 1e-4;
     const double r = radius(p);

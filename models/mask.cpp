@@ -85,7 +85,7 @@ double shell(const Point& p) {
     // The inside is that of a plain head, so that the wall is thicker under nose, brows and lips only.
     double d = carve(skin(q), head(q, m) + kMaskWall, 1.5);
     d = common(d, kBack - q.z, 2.5);
-    return q.z > -5 ? carve(d, eyeHole(m), 2) : d;
+    return carve(d, eyeHole(m), 2);
 }
 
 glm::u8vec3 colour(const Point& p) {

@@ -44,7 +44,7 @@ PlaneCurve::PlaneCurve(const std::vector<glm::dvec2>& control, double step) : lo
 }
 
 PlaneCurve::Foot PlaneCurve::foot(const glm::dvec2& p) const {
-    constexpr double near = 20;
+    constexpr double near = 30; // wider than any relief
     if (glm::length(glm::max(glm::max(lowest_ - p, p - highest_), 0.0)) > near)
         return {kReach, 0};
     Foot best{kReach, 0};

@@ -120,7 +120,7 @@ double relief(const Point& m) {
         // Navel: a pit with a soft rim, and a nipple.
         const glm::dvec2 navel(m.x - 5, m.y + 162); // m.x is 5 in the middle
         const double round = std::hypot(navel.x, 0.8 * navel.y);
-        r += 9 * bell(round / 12) + 2.5 * bell(round / 26) - 1.2 * bell((round - 15) / 8);
+        r += 7.5 * bell(round / 13) + 2.5 * bell(round / 26) - 1.2 * bell((round - 15) / 8);
         const double tip = glm::length(front - glm::dvec2(104, 64));
         r -= forward * (2.6 * bell(tip / 7.5) + 1.4 * bell(tip / 17));
     } else {
@@ -135,8 +135,8 @@ double relief(const Point& m) {
 double solid(const Point& p) {
     const Point m = mirrored(p);
     double d = bodyOf(p, m);
-    if (std::abs(d) < 24)
-        d += relief(m) * ramp(24, 9, std::abs(d));
+    if (std::abs(d) < 40)
+        d += relief(m) * ramp(40, 10, std::abs(d));
     return common(d, std::max(kHips - p.y, p.y - kNeck), 4);
 }
 
