@@ -290,6 +290,9 @@ int runChecked(int argc, char** argv) {
     }
     setUpLog(choice.verbosity);
     const Result<int> code = choice.action();
+    std::cout.flush();
+    if (code && !std::cout)
+        return report(Error{"cannot write to the standard output: is its disk full, or its reader gone?"});
     return code ? *code : report(code.error());
 }
 

@@ -162,13 +162,19 @@ void addRepairFlag(CLI::App& command, bool& repair) {
                      "mend winding, small holes, duplicate faces and stray vertices (docs/import.md)");
 }
 
+/// An unset variable of a script must not choose a folder.
+std::string notEmpty(const std::string& text) {
+    return text.empty() ? "is empty: name a folder, or leave the option out" : "";
+}
+
 void addRun(CLI::App& app, std::function<Result<int>()>& action) {
     CLI::App* command = app.add_subcommand(
         "run", "Simulate a scene or a model; write pictures, surfaces, summary.json, report.html");
     auto given = std::make_shared<RunArguments>();
     addSceneOptions(*command, *given);
     command->add_option("--out", given->out, "output folder (default: name of the scene or model with -out)")
-        ->type_name("DIR");
+        ->type_name("DIR")
+        ->check(notEmpty);
     command->add_flag("--force", given->force,
                       "write into a folder that holds something; results of an earlier run are replaced");
     command

@@ -87,7 +87,7 @@ Result<int> inspectModel(const std::filesystem::path& file, bool repair, const s
         position *= organ.lengthUnit;
     organ.nodes = nodes;
     organ.spacing = spacing.value_or(0);
-    SEROSA_ASSIGN(const sim::Lattice lattice, organLattice(organ, mesh));
+    SEROSA_ASSIGN(const sim::Lattice lattice, organLattice(organ, mesh, {}));
     const std::string unit = lengthUnit.empty() ? "file units" : "mm";
     const double shown = lengthUnit.empty() ? lattice.spacing : 1e3 * lattice.spacing;
     out << "lattice             " << grouped(lattice.nodeCount()) << " nodes, "

@@ -81,20 +81,26 @@ Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice
     return fixed;
 }
 
-Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres) {
+Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres,
+                                  const std::filesystem::path& scene) {
     sim::LatticeRequest request;
     request.spacing = organ.spacing;
     request.nodes = organ.nodes;
-    return sim::buildLattice(metres, request);
+    Result<sim::Lattice> lattice = sim::buildLattice(metres, request);
+    if (!lattice.ok())
+        return Error{scenePosition(scene, organ.modelLine) + lattice.error().message};
+    return lattice;
 }
 
-Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime) {
+Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
+                                  const std::filesystem::path& scene) {
     const double rate2 =
         12 * organ.tissue.stiffnessOverMass(lattice.spacing); // 1/s2, the least that it can be
     // Damping c = dampingTime k along springs bounds the step by about 2 / (dampingTime rate2), too.
     const double steps = frameTime * std::max(std::sqrt(rate2), organ.tissue.dampingTime * rate2) / 2;
     if (!(steps <= kMostStepsAFrame))
-        return Error{"the tissue is so stiff or damped on so fine a lattice that a frame would take " +
+        return Error{scenePosition(scene, organ.modelLine) +
+                     "the tissue is so stiff or damped on so fine a lattice that a frame would take " +
                      shortNumber(steps) +
                      " steps or more (at most 100,000): lower young or damping_time, or raise spacing"};
     return sim::stableStep(lattice, organ.tissue, frameTime);

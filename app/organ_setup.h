@@ -39,11 +39,13 @@ Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem:
 Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice& lattice,
                                      const sim::TriangleMesh& metres, const std::filesystem::path& scene);
 
-/// The lattice of an organ, by nodes or spacing.
-Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres);
+/// The lattice of an organ, by nodes or spacing. Errors name the line of the organ's model in `scene`.
+Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres,
+                                  const std::filesystem::path& scene);
 
 /// The stable step, refused where a frame would take more than 100,000 steps.
-Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime);
+Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
+                                  const std::filesystem::path& scene);
 
 /// A line for each kind of fault that was mended, or that there was none.
 void printRepair(const sim::RepairReport& repair, std::ostream& out);

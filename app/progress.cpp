@@ -13,9 +13,12 @@ namespace {
 
 volatile std::sig_atomic_t gInterrupted = 0;
 
-extern "C" void onInterrupt(int) {
+// What a terminal, a scheduler's time limit and a closed connection send.
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+extern "C" void onInterrupt(int which) {
     gInterrupted = 1;
-    std::signal(SIGINT, SIG_DFL);
+    std::signal(which, SIG_DFL);
 }
 
 constexpr int kBarWidth = 40;
@@ -44,12 +47,14 @@ void Progress::show(int done) {
 
 InterruptGuard::InterruptGuard() {
     gInterrupted = 0;
-    previous_ = std::signal(SIGINT, onInterrupt);
+    for (std::size_t i = 0; i < previous_.size(); ++i)
+        previous_[i] = std::signal(kSignals[i], onInterrupt);
 }
 
 InterruptGuard::~InterruptGuard() {
-    if (previous_ != SIG_ERR)
-        std::signal(SIGINT, previous_);
+    for (std::size_t i = 0; i < previous_.size(); ++i)
+        if (previous_[i] != SIG_ERR)
+            std::signal(kSignals[i], previous_[i]);
 }
 
 bool InterruptGuard::interrupted() const {

@@ -1,6 +1,7 @@
 #pragma once
-// A progress bar on stderr, only where that is a terminal; and the flag that SIGINT sets.
+// A progress bar on stderr, only where that is a terminal; and the flag that an interruption sets.
 
+#include <array>
 #include <chrono>
 #include <string>
 
@@ -21,7 +22,8 @@ private:
     std::chrono::steady_clock::time_point last_{};
 };
 
-/// From its making to its end, SIGINT sets a flag instead of ending the program; a second one ends it.
+/// From its making to its end, SIGINT, SIGTERM and SIGHUP set a flag instead of ending the program; a second
+/// one ends it.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -31,7 +33,7 @@ public:
     bool interrupted() const;
 
 private:
-    void (*previous_)(int);
+    std::array<void (*)(int), 3> previous_;
 };
 
 } // namespace serosa::app

@@ -12,6 +12,7 @@
 #include "base/atomic_file.h"
 #include "gpu/gl.h"
 #include "render/image.h"
+#include "sim/cell_volumes.h"
 #include "sim/mesh_writer.h"
 #include "sim/quantity.h"
 
@@ -96,16 +97,21 @@ public:
         for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
             SEROSA_TRY(picture(frame));
-            SEROSA_TRY(writeSurfaces(frame));
             record_.framesDone = frame;
-            if (frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted())
+            const bool away = surfaceFrames_.contains(frame) && !player_.runaway().empty();
+            if (frame % kSampleEvery == 0 || frame == frames_ || away || interrupt.interrupted())
                 sample(frame);
+            if (record_.end == "complete")
+                SEROSA_TRY(writeSurfaces(frame));
             if (interrupt.interrupted() && record_.end == "complete" && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
         }
         return {};
     }
+
+    /// The first drawing compiles shaders and fills caches: a part of the set-up, not of a picture's time.
+    void warmUp() { drawScene(0); }
 
     Status contactSheet() {
         if (tiles_.empty())
@@ -178,12 +184,12 @@ private:
             const Displacement moved = largestDisplacement(organ.lattice, now);
             OrganRecord& record = record_.organs[i];
             record.stateHash = now.hash();
+            record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
             if (!moved.finite) {
                 record_.end = "not finite";
                 failure_ = "the position of node " + std::to_string(moved.node) + inOrgan(i) +
-                           " is not finite " + sim::formatQuantity(time, sim::Dimension::time) +
-                           " into the run, or up to " + std::to_string(kSampleEvery) +
-                           " frames before: the pictures show what led to it";
+                           " is not finite " + shortNumber(time) + " s into the run, or up to " +
+                           std::to_string(kSampleEvery) + " frames before: the pictures show what led to it";
                 continue;
             }
             sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
@@ -205,19 +211,23 @@ private:
         record_.samples.push_back(sum);
     }
 
+    void drawScene(int frame) {
+        render::View view{camera_, parts_.scene.light, parts_.scene.look, {}};
+        for (const sim::Tool& tool : parts_.scene.tools)
+            view.toolSpheres.emplace_back(tool.centreAt(frame * frameTime_), tool.radius);
+        parts_.renderer->draw(parts_.textures(), view);
+        glFinish();
+    }
+
     Status picture(int frame) {
         const sim::Output& output = parts_.scene.output;
         const bool written = frame % output.frameEvery == 0 || frame == frames_,
                    tile = sheetFrames_.contains(frame);
         if (!written && !tile)
             return {};
-        render::View view{camera_, parts_.scene.light, parts_.scene.look, {}};
-        for (const sim::Tool& tool : parts_.scene.tools)
-            view.toolSpheres.emplace_back(tool.centreAt(frame * frameTime_), tool.radius);
         {
             Stopwatch watch(record_.times.draw);
-            parts_.renderer->draw(parts_.textures(), view);
-            glFinish();
+            drawScene(frame);
         }
         Stopwatch watch(record_.times.files);
         const render::Image image = parts_.renderer->readImage();
@@ -302,6 +312,9 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
 void describeSetup(const RunParts& parts, std::ostream& out) {
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
+    if (parts.timesLeftOut > 0)
+        out << "note: " << parts.timesLeftOut
+            << " of the times in surfaces_at and sheet_at lie after the frames asked for and are left out\n";
     out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
         << parts.context->info().renderer << "\n"
         << std::flush;
@@ -319,9 +332,10 @@ Result<int> runScene(const RunOptions& options, std::ostream& out) {
     SEROSA_TRY(prepareRun(options, parts));
     describeSetup(parts, out);
     SEROSA_TRY(folder.create());
-    setupWatch.reset();
 
     Run run(parts, folder, options.solver);
+    run.warmUp();
+    setupWatch.reset();
     const InterruptGuard interrupt;
     SEROSA_TRY(run.frames(interrupt));
     SEROSA_TRY(run.contactSheet());
@@ -337,6 +351,15 @@ Result<int> runScene(const RunOptions& options, std::ostream& out) {
     SEROSA_TRY(run.report(summary));
     folder.keep();
 
+    for (std::size_t i = 0; i < record.organs.size(); ++i)
+        if (record.organs[i].invertedCells > 0)
+            out << "note: " << grouped(record.organs[i].invertedCells) << " cells of "
+                << parts.scene.organs[i].name
+                << " were turned inside out at a time; pictures are not to be trusted there: press less "
+                   "deep, or "
+                   "take a finer lattice\n";
+    if (record.end == "interrupted")
+        out << "interrupted after frame " << record.framesDone << " of " << parts.scene.frames() << "\n";
     out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten
         << " surfaces, summary.json and report.html to " << folder.path().string()
         << "; largest displacement " << shortNumber(1e3 * record.largestDisplacement) << " mm, "

@@ -11,9 +11,13 @@ namespace serosa::app {
 
 namespace {
 
-Status applyOverrides(const RunOptions& options, sim::Scene& scene) {
-    if (options.frames)
+Status applyOverrides(const RunOptions& options, sim::Scene& scene, std::size_t& timesLeftOut) {
+    if (options.frames) {
         scene.duration = *options.frames / scene.frameRate;
+        const double end = (*options.frames + 0.5) / scene.frameRate;
+        for (std::vector<double>* times : {&scene.output.surfacesAt, &scene.output.sheetAt})
+            timesLeftOut += std::erase_if(*times, [end](double time) { return time > end; });
+    }
     if (options.width)
         scene.output.width = *options.width;
     if (options.height)
@@ -57,12 +61,12 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
         parts.scene.organs.front().repair = organ.repair;
         addOrgan(std::move(surface));
     }
-    return applyOverrides(options, parts.scene);
+    return applyOverrides(options, parts.scene, parts.timesLeftOut);
 }
 
 /// Lattice, fixed nodes and time step: all that needs no context.
 Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
-    SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres));
+    SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres, scene.file));
     parts.setup.lattice = &parts.lattice;
     parts.setup.tissue = organ.tissue;
     parts.setup.gravity = scene.gravity;
@@ -71,7 +75,7 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     if (organ.pose) {
         SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));
     } else {
-        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, 1 / scene.frameRate));
+        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, 1 / scene.frameRate, scene.file));
         parts.setup.timeStep = parts.step.timeStep;
     }
     return {};

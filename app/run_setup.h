@@ -37,6 +37,8 @@ struct RunParts {
     std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
+    std::size_t timesLeftOut =
+        0; // of surfaces_at and sheet_at: after the last of the frames that were asked for
 
     RunParts() = default;
     RunParts(const RunParts&) = delete;

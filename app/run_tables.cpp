@@ -87,6 +87,7 @@ PropertyTable organTable(const std::vector<Json>& organs) {
         .add("air_drag_1_s", "Air drag", plain("1/s"))
         .add("solver", "Solver", word())
         .add("largest_displacement_m", "Largest displacement", quantity("m"))
+        .add("inverted_cells", "Cells turned inside out, at most", count())
         .add("state_hash", "Last state\u2019s hash", word());
     return table;
 }

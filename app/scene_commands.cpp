@@ -25,14 +25,14 @@ struct Derived {
 Result<Derived> derive(const sim::Scene& scene, const sim::Organ& organ) {
     Derived derived;
     SEROSA_ASSIGN(derived.surface, loadSurface(organ, scene.file));
-    SEROSA_ASSIGN(derived.lattice, organLattice(organ, derived.surface.metres));
+    SEROSA_ASSIGN(derived.lattice, organLattice(organ, derived.surface.metres, scene.file));
     SEROSA_ASSIGN(const std::vector<bool> fixed,
                   fixedNodes(organ, derived.lattice, derived.surface.metres, scene.file));
     derived.fixed = std::size_t(std::count(fixed.begin(), fixed.end(), true));
     if (organ.pose) {
         SEROSA_TRY(checkBend(derived.lattice, organ.pose->bendRadius));
     } else {
-        SEROSA_ASSIGN(derived.step, organStep(organ, derived.lattice, 1 / scene.frameRate));
+        SEROSA_ASSIGN(derived.step, organStep(organ, derived.lattice, 1 / scene.frameRate, scene.file));
     }
     return derived;
 }

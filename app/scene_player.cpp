@@ -9,7 +9,9 @@
 
 namespace serosa::app {
 
-ScenePlayer::ScenePlayer(RunParts& parts) : parts_(parts), posed_(parts.organs.size()) {}
+ScenePlayer::ScenePlayer(RunParts& parts) : parts_(parts), posed_(parts.organs.size()) {
+    reset();
+}
 
 void ScenePlayer::advance() {
     ++frame_;
@@ -33,13 +35,12 @@ void ScenePlayer::reset() {
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
         OrganParts& organ = *parts_.organs[i];
         posed_[i].reset();
-        const sim::LatticeState rest = sim::restState(organ.lattice);
         if (organ.solver) {
-            organ.solver->setState(rest);
+            organ.solver->setState(sim::startState(organ.setup));
             organ.solver->takeToolImpulses();
         }
         if (organ.uploaded)
-            organ.uploaded->upload(rest);
+            organ.uploaded->upload(sim::restState(organ.lattice));
     }
 }
 

@@ -81,8 +81,9 @@ Json stepJson(const sim::StableStep& step) {
             {"margin", step.margin},
             {"stiffest_rate2_1_s2", step.stiffestRate2},
             {"formula_rate2_1_s2", step.formulaRate2},
-            {"how", "power iteration on the rest lattice, never below 12 k/m; explicit step below the bound, "
-                    "damping included"}};
+            {"how",
+             "Lanczos iteration on the rest lattice, never below 12 k/m; explicit step below the bound, "
+             "damping included"}};
 }
 
 Json bindingJson(const render::SurfaceBinding& binding) {
@@ -104,6 +105,7 @@ Json organsJson(const RunRecord& record) {
         json["step"] = stepJson(organ.step);
         json["binding"] = bindingJson(*organ.binding);
         json["largest_displacement_m"] = organ.largestDisplacement;
+        json["inverted_cells"] = organ.invertedCells;
         json["state_hash"] = organ.stateHash;
         organs.push_back(std::move(json));
     }
@@ -227,6 +229,8 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     if (single)
         json["binding"] = bindingJson(*record.organs.front().binding);
     json["largest_displacement_m"] = record.largestDisplacement;
+    if (single)
+        json["inverted_cells"] = record.organs.front().invertedCells;
     json["energies"] = std::move(energies);
     json["tools"] = toolsJson(record);
     json["state_hash"] = record.stateHash();

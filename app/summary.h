@@ -46,6 +46,7 @@ struct OrganRecord {
     sim::StableStep step; // zero for a pose
     const render::SurfaceBinding* binding = nullptr;
     double largestDisplacement = 0; // m, over the samples
+    std::size_t invertedCells = 0;  // most at one sample (sim/cell_volumes.h)
     std::string stateHash;
 };
 

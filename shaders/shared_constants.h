@@ -2,12 +2,12 @@
 #define SRS_MAX_TOOLS 4
 
 // State textures (ARCHITECTURE.md, texture formats).
-// Node info texel, RGBA32UI: .x = connection bits 0..17, material << 18 (8 bits), flags << 26 (6 bits);
+// Node info texel, RGBA32UI: .x = connection bits 0..17, rest depth << 18 (8 bits), flags << 26 (6 bits);
 // .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w =
 // free.
 #define SRS_CONNECTION_MASK 0x3ffffu
-#define SRS_MATERIAL_SHIFT 18
-#define SRS_MATERIAL_MASK 0xffu
+#define SRS_DEPTH_SHIFT 18 // below the surface: steps of 1/85 spacing from -2 (sim/node_depths.h)
+#define SRS_DEPTH_MASK 0xffu
 #define SRS_FLAG_ACTIVE (1u << 26)
 #define SRS_FLAG_FIXED (1u << 27)
 #define SRS_HELD_SHIFT 28

@@ -56,9 +56,10 @@ void main() {
 #if SRS_TOOLS > 0
     vec3 free = moved;
     uint holder = (info.x >> SRS_HELD_SHIFT) & SRS_HELD_MASK;
+    float depth = float((info.x >> SRS_DEPTH_SHIFT) & SRS_DEPTH_MASK) * (1.0 / 85.0) - 2.0;
     for (int tool = 0; tool < SRS_TOOLS; ++tool) {
         vec3 before = moved;
-        moved = applyTool(tool, holder, x, moved);
+        moved = applyTool(tool, holder, depth, x, moved);
         o_impulse[tool] = vec4((moved - before) * (fills / 2040.0), 0.0);
     }
     if (moved != free)

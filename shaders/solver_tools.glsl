@@ -4,14 +4,15 @@
 uniform vec4 u_toolSpheres[SRS_MAX_TOOLS]; // centre at the end of the step and radius, lattice units
 uniform vec4 u_toolMoves[SRS_MAX_TOOLS];   // motion of the centre in this step, lattice units; w: SRS_TOOL_...
 
-/// Position after the step of a node that was at `x` and moves freely to `free`.
-vec3 applyTool(int tool, uint holder, vec3 x, vec3 free) {
+/// Position after the step of a node that was at `x` and moves freely to `free`; `depth` below the organ's surface at
+/// rest, -2 to 1 spacings (sim/node_depths.h).
+vec3 applyTool(int tool, uint holder, float depth, vec3 x, vec3 free) {
     int mode = int(u_toolMoves[tool].w);
     if (mode == SRS_TOOL_GRASP)
         return holder == uint(tool + 1) ? x + u_toolMoves[tool].xyz : free;
     vec3 away = free - u_toolSpheres[tool].xyz;
     float distance2 = dot(away, away);
-    float radius = u_toolSpheres[tool].w;
+    float radius = max(u_toolSpheres[tool].w + depth, 0.0);
     if (mode != SRS_TOOL_PUSH || distance2 >= radius * radius)
         return free;
     vec3 direction = distance2 > 1e-12 ? away * inversesqrt(distance2) : vec3(0.0, 1.0, 0.0);

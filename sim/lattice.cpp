@@ -2,6 +2,8 @@
 // the cells instead of the nodes are material, see sim/lattice.h).
 #include "sim/lattice.h"
 
+#include "sim/node_depths.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -167,6 +169,7 @@ Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const g
                 lattice.fills.push_back(around);
                 lattice.connections.push_back(bits);
             }
+    lattice.depthSteps = massDepths(lattice);
     addBoundary(lattice, fillOfCell);
     return lattice;
 }

@@ -44,9 +44,10 @@ struct Lattice {
     std::vector<std::array<std::uint8_t, 8>> fills; // of the 8 cells around a node: cell c lies towards +x if
                                                     // c&1, +y if c&2, +z if c&4; 0: no material
     std::vector<LatticeCell> cells;                 // material cells, sorted z, y, x
-    std::vector<glm::uvec3> boundary; // triangles over nodes, outward: outer faces of material cells,
-                                      // each cut along the diagonal through its lowest node index
-    double exactVolume = 0;           // m3: of the surface, before fills are rounded to 8 bits
+    std::vector<glm::uvec3> boundary;     // triangles over nodes, outward: outer faces of material cells,
+                                          // each cut along the diagonal through its lowest node index
+    double exactVolume = 0;               // m3: of the surface, before fills are rounded to 8 bits
+    std::vector<std::uint8_t> depthSteps; // a node: restDepth()
 
     std::size_t nodeCount() const { return nodes.size(); }
     glm::dvec3 restPosition(std::size_t node) const {
@@ -60,6 +61,9 @@ struct Lattice {
     std::int64_t neighbour(std::size_t node, int d) const;
     /// Share of a full node's mass: sum of its fills / (8 * 255).
     double massShare(std::size_t node) const;
+    /// How deep the node rests below the organ's surface, in spacings from -2 (outside) to 1, in steps of
+    /// 1/85. Without a surface (latticeFromCells) what the share of mass says of a plane along the grid.
+    double restDepth(std::size_t node) const { return depthSteps[node] / 85.0 - 2; }
     /// Spring weight w in direction d (k_ij = w k): edges sum f/4 over the cells that hold both ends,
     /// diagonals f/2.
     double springWeight(std::size_t node, int d) const;

@@ -1,6 +1,7 @@
 // A lattice from a closed surface: the spacing that gives a wanted number of nodes, memory limits, and fills.
 #include "sim/cell_fills.h"
 #include "sim/lattice.h"
+#include "sim/node_depths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -153,6 +154,7 @@ Result<Lattice> buildLattice(const TriangleMesh& metres, const LatticeRequest& r
                      " mm"};
     Lattice lattice = latticeFromCells(std::move(cells), filled.grid.spacing, filled.grid.origin);
     lattice.exactVolume = volume;
+    lattice.depthSteps = surfaceDepths(lattice, metres);
     return lattice;
 }
 

@@ -94,7 +94,8 @@ private:
             glm::dvec3 moved = free;
             for (std::size_t tool = 0; tool < tools.size(); ++tool) {
                 const glm::dvec3 before = moved;
-                moved = tools[tool].apply(x[node], moved, state_.heldBy[node] == tool + 1);
+                moved = tools[tool].apply(x[node], moved, state_.heldBy[node] == tool + 1,
+                                          lattice.restDepth(node));
                 impulses_[tool] += mass_[node] * (moved - before);
             }
             next.positions[node] = moved;
@@ -118,6 +119,16 @@ std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
     return std::make_unique<ReferenceSolver>(setup);
+}
+
+LatticeState startState(const SolverSetup& setup) {
+    LatticeState state = restState(*setup.lattice);
+    const glm::dvec3 increment =
+        -0.5 * setup.timeStep * setup.timeStep / setup.lattice->spacing * setup.gravity;
+    for (std::size_t node = 0; node < state.increments.size(); ++node)
+        if (setup.fixed.empty() || !setup.fixed[node])
+            state.increments[node] = increment;
+    return state;
 }
 
 Energies energies(const SolverSetup& setup, const LatticeState& state) {

@@ -59,6 +59,10 @@ Energies energies(const SolverSetup& setup, const LatticeState& state);
 /// The rest state of a lattice: integer positions, zero increments, rest normals.
 LatticeState restState(const Lattice& lattice);
 
+/// Where a run begins: at rest, with the velocity zero at t = 0. Increments are velocities half a step
+/// before, so gravity's half step is taken off them: a body then falls by g t^2/2, not by g t (t + dt)/2.
+LatticeState startState(const SolverSetup& setup);
+
 std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
 
 struct FragmentOptions {
@@ -74,7 +78,7 @@ Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup,
 
 /// How the time step was computed, for the summary.
 struct StableStep {
-    double stiffestRate2 = 0; // omega^2 in 1/s2: power iteration on the rest lattice, never below 12 k/m
+    double stiffestRate2 = 0; // omega^2 in 1/s2: Lanczos iteration on the rest lattice, never below 12 k/m
     double formulaRate2 = 0;  // 12 k/m
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used

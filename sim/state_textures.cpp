@@ -17,8 +17,9 @@ std::array<std::uint32_t, 4> nodeInfoTexel(const Lattice& lattice, std::size_t n
         return std::uint32_t(fills[from]) | std::uint32_t(fills[from + 1]) << 8 |
                std::uint32_t(fills[from + 2]) << 16 | std::uint32_t(fills[from + 3]) << 24;
     };
-    return {lattice.connections[node] | SRS_FLAG_ACTIVE | (fixed ? SRS_FLAG_FIXED : 0u), pack(0), pack(4),
-            0u};
+    return {lattice.connections[node] | std::uint32_t(lattice.depthSteps[node]) << SRS_DEPTH_SHIFT |
+                SRS_FLAG_ACTIVE | (fixed ? SRS_FLAG_FIXED : 0u),
+            pack(0), pack(4), 0u};
 }
 
 } // namespace

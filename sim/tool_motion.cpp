@@ -1,21 +1,26 @@
 // Contact projects a node out of the sphere along the radius; the increment that follows from it ends the
-// approach and keeps the slide. Grasped nodes move with the sphere.
+// approach and keeps the slide. What touches is the organ's surface, not its nodes: those of partly filled
+// cells lie up to a spacing outside of it and may enter the sphere by as much, those inside are kept off it
+// by their depth. Without that the weak outer cells are crushed flat between the sphere and the full ones
+// below, and fold. Grasped nodes move with the sphere.
 #include "sim/tool_motion.h"
 
 #include "shaders/shared_constants.h"
 
+#include <algorithm>
+
 namespace serosa::sim {
 
-glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool held) const {
+glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool held, double depth) const {
     if (mode == SRS_TOOL_GRASP)
         return held ? x + (to - from) : free;
     if (mode != SRS_TOOL_PUSH)
         return free;
     const glm::dvec3 away = free - to;
-    const double distance = glm::length(away);
-    if (distance >= radius)
+    const double distance = glm::length(away), reach = std::max(radius + depth, 0.0);
+    if (distance >= reach)
         return free;
-    return to + (distance > 1e-6 ? away / distance : glm::dvec3(0, 1, 0)) * radius;
+    return to + (distance > 1e-6 ? away / distance : glm::dvec3(0, 1, 0)) * reach;
 }
 
 std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step) {

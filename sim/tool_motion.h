@@ -18,7 +18,8 @@ struct ToolMotion {
     double radius = 0;         // lattice units
 
     /// Position after the step of a node that was at `x` and moves freely to `free`.
-    glm::dvec3 apply(const glm::dvec3& x, const glm::dvec3& free, bool held) const;
+    /// \param depth of the node below the organ's surface at rest, lattice units: Lattice::restDepth
+    glm::dvec3 apply(const glm::dvec3& x, const glm::dvec3& free, bool held, double depth) const;
 };
 
 /// Tools during step number `step` (from step * dt to (step + 1) * dt), one a tool of the setup.

@@ -26,9 +26,11 @@ struct ChildResult {
 };
 
 struct ChildOptions {
-    std::vector<std::pair<std::string, std::string>> environment;
-    long long largestFile = -1; // bytes: writing more fails, as on a full disk; -1: no limit
-    std::string interruptAfter; // a file in the child's folder: once it is there, the child gets SIGINT
+    std::vector<std::pair<std::string, std::string>> environment = {};
+    long long largestFile = -1;      // bytes: writing more fails, as on a full disk; -1: no limit
+    std::string interruptAfter = {}; // a file in the child's folder: once it is there, the child gets ...
+    int interruptBy = SIGINT;        // ... this
+    std::string standardOutput = {}; // a file instead of ChildResult::out
 };
 
 inline std::string readWhole(const std::filesystem::path& file) {
@@ -72,7 +74,9 @@ inline ChildResult runSerosa(const std::filesystem::path& folder, const std::vec
     const pid_t child = fork();
     if (child == 0) {
         if (chdir(folder.c_str()) != 0 || !freopen("/dev/null", "r", stdin) ||
-            !freopen(outFile.c_str(), "w", stdout) || !freopen(errFile.c_str(), "w", stderr))
+            !freopen((options.standardOutput.empty() ? outFile : options.standardOutput).c_str(), "w",
+                     stdout) ||
+            !freopen(errFile.c_str(), "w", stderr))
             _exit(126);
         for (const auto& [name, value] : options.environment)
             setenv(name.c_str(), value.c_str(), 1);
@@ -93,7 +97,7 @@ inline ChildResult runSerosa(const std::filesystem::path& folder, const std::vec
         while (!std::filesystem::exists(folder / options.interruptAfter) &&
                waitpid(child, &status, WNOHANG) == 0)
             usleep(1000);
-        kill(child, SIGINT);
+        kill(child, options.interruptBy);
     }
     waitpid(child, &status, 0);
     ChildResult result;

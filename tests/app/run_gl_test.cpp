@@ -197,23 +197,50 @@ TEST_F(GlRun, FullDiskLeavesNothing) {
     EXPECT_EQ(folder_.names(), before);
 }
 
-// An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.
 TEST_F(GlRun, AnInterruptedRunKeepsItsFramesAndSaysSo) {
-    ChildOptions options;
-    options.interruptAfter = "a/frame_000003.png";
-    const ChildResult result = run("a", {"--frames", "1000000"}, options);
-    EXPECT_EQ(result.exitCode, 130) << result.err;
-    const nlohmann::json json = summary("a");
-    ASSERT_FALSE(json.is_discarded()) << result.err;
-    EXPECT_EQ(json["end"], "interrupted");
-    EXPECT_EQ(json["frames_asked"], 1000000);
-    const int frames = json["frames"];
-    EXPECT_GE(frames, 3);
-    // The state is that of a run that was asked for just so many frames.
-    ASSERT_EQ(run("b", {"--frames", std::to_string(frames)}).exitCode, 0);
-    EXPECT_EQ(json["state_hash"], summary("b")["state_hash"]);
-    EXPECT_EQ(json["largest_displacement_m"].is_number(), true);
-    EXPECT_TRUE(written("a").contains("frame_000003.png"));
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const std::string out = "by" + std::to_string(signal);
+        ChildOptions options;
+        options.interruptAfter = out + "/frame_000003.png";
+        options.interruptBy = signal;
+        const ChildResult result =
+            serosa({"run", "ball.toml", "--frames", "1000000", "--gl", glChoice(), "--out", out}, options);
+        EXPECT_EQ(result.exitCode, 130) << result.err;
+        EXPECT_NE(result.out.find("interrupted after frame"), std::string::npos) << result.out;
+        const nlohmann::json json = summary(out);
+        ASSERT_FALSE(json.is_discarded()) << result.err;
+        EXPECT_EQ(json["end"], "interrupted");
+        EXPECT_EQ(json["frames_asked"], 1000000);
+        const int frames = json["frames"];
+        EXPECT_GE(frames, 3);
+        EXPECT_TRUE(written(out).contains("frame_000003.png"));
+        // The state is that of a run that was asked for just so many frames.
+        const std::string whole = out + "-whole";
+        ASSERT_EQ(serosa({"run", "ball.toml", "--frames", std::to_string(frames), "--gl", glChoice(), "--out",
+                          whole})
+                      .exitCode,
+                  0);
+        EXPECT_EQ(json["state_hash"], summary(whole)["state_hash"]);
+    }
+}
+
+TEST_F(GlRun, FewerFramesLeaveOutLaterTimesAndSaySo) {
+    const ChildResult result =
+        serosa({"run", "ball.toml", "--frames", "3", "--gl", glChoice(), "--out", "short"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("note: 1 of the times"), std::string::npos) << result.out;
+    EXPECT_EQ(summary("short")["surfaces"], 1);
+}
+
+TEST_F(GlRun, AFullStandardOutputIsNoticed) {
+    const ChildResult result = serosa({"scene", "check", "ball.toml"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    ChildOptions full;
+    full.standardOutput = "/dev/full";
+    const ChildResult failed = serosa({"scene", "check", "ball.toml"}, full);
+    EXPECT_EQ(failed.exitCode, 2);
+    EXPECT_EQ(failed.errorLines(), 1U) << failed.err;
+    EXPECT_NE(failed.err.find("standard output"), std::string::npos) << failed.err;
 }
 
 TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
@@ -233,6 +260,7 @@ TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
     EXPECT_EQ(json["frames"], 10) << "found at the first sample, after ten frames";
 }
 
+// An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.
 TEST_F(GlRun, SeveralOrgansMoveInLockstep) {
     const std::string organ = "model = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
                               "[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.3\n";

@@ -34,7 +34,10 @@ struct Form {
     double leastAngle = 20;  // of a face, degrees
     bool aboutOrigin = true; // else it lies where it belongs in another phantom
 };
-const std::map<std::string, Form> kForms = {{"coins", {1, 14, 12, false}}};
+const std::map<std::string, Form> kForms = {
+    {"coins", {1, 13, 8, false}}, // rings of touching coins are handles
+    {"mask", {1, 2, 12, false}},  // two eyes
+};
 
 TEST(Phantom, AllAreSoundAtTheirDefaultCount) {
     for (const PhantomInfo& info : phantoms()) {

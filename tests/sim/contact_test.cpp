@@ -1,0 +1,133 @@
+// A pushing sphere touches the organ's surface, wherever it lies between the nodes, and ordinary palpation
+// neither turns cells inside out nor leaves a dent.
+#include "sim/cell_volumes.h"
+#include "sim/node_depths.h"
+#include "sim/solver.h"
+#include "tests/sim/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace serosa;
+
+namespace {
+
+sim::Lattice latticeOf(const sim::TriangleMesh& mesh, double spacing) {
+    sim::LatticeRequest request;
+    request.spacing = spacing;
+    auto lattice = sim::buildLattice(mesh, request);
+    EXPECT_TRUE(lattice.ok());
+    return std::move(lattice).value();
+}
+
+sim::SolverSetup setupOf(const sim::Lattice& lattice) {
+    sim::SolverSetup setup;
+    setup.lattice = &lattice;
+    setup.timeStep = sim::stableStep(lattice, setup.tissue, 1.0 / 60).timeStep;
+    return setup;
+}
+
+} // namespace
+
+TEST(NodeDepths, areDistancesBelowTheSurface) {
+    const double radius = 0.02, h = 0.003;
+    const sim::Lattice lattice = latticeOf(test::ballMesh(radius, 5), h);
+    double outermost = 0;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        const double r = glm::length(lattice.toWorld(lattice.restPosition(node)));
+        const double depth = (radius - r) / h;
+        EXPECT_NEAR(lattice.restDepth(node), std::clamp(depth, -2.0, 1.0), 0.03) << node;
+        outermost = std::min(outermost, lattice.restDepth(node));
+    }
+    EXPECT_LT(outermost, -0.8) << "some nodes lie well outside";
+}
+
+TEST(NodeDepths, ofFullCellsAreOnTheirFaces) {
+    const sim::Lattice lattice = test::blockLattice(4, 4, 4);
+    const std::int64_t face = lattice.nodeAt({2, 4, 2}), inner = lattice.nodeAt({2, 2, 2});
+    ASSERT_GE(std::min(face, inner), 0);
+    EXPECT_NEAR(lattice.restDepth(std::size_t(face)), 0, 1e-12);
+    EXPECT_NEAR(lattice.restDepth(std::size_t(inner)), 1, 1e-12);
+}
+
+// The top of the box lies at three heights within its cells; the probe must not touch before, nor slip past.
+TEST(Contact, beginsAtTheSurface) {
+    const double h = 0.003;
+    for (const double height : {0.0310, 0.0319, 0.0328}) {
+        SCOPED_TRACE(height);
+        const sim::Lattice lattice =
+            latticeOf(test::boxMesh({-0.015, -height / 2, -0.015}, {0.015, height / 2, 0.015}), h);
+        // Above a node, so that the lowest point of the sphere meets one.
+        const glm::dvec3 node = lattice.toWorld(glm::dvec3(0));
+        for (const double gap : {0.05, -0.05}) { // spacings above the top
+            sim::SolverSetup setup = setupOf(lattice);
+            const glm::dvec3 centre(node.x, height / 2 + 0.02 + gap * h, node.z);
+            setup.tools = {{"probe", sim::ToolMode::push, 0.02, {{0, centre}}}};
+            const auto solver = sim::makeReferenceSolver(setup);
+            solver->advance(1);
+            const double push = -solver->takeToolImpulses()[0].y;
+            if (gap > 0)
+                EXPECT_EQ(push, 0);
+            else
+                EXPECT_GT(push, 0);
+        }
+    }
+}
+
+TEST(Contact, palpationTurnsNoCellInsideOutAndLeavesNoDent) {
+    const double radius = 0.04, probe = 0.02;
+    const sim::TriangleMesh ball = test::ballMesh(radius, 5);
+    const sim::Lattice lattice = latticeOf(ball, 0.006);
+    sim::SolverSetup setup = setupOf(lattice);
+    setup.tissue.airDrag = 20;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        setup.fixed.push_back(lattice.toWorld(lattice.restPosition(node)).y < -0.5 * radius);
+    // Askew to the grid; 2.5 spacings deep, held, and away.
+    const glm::dvec3 outward = glm::normalize(glm::dvec3(0.3, 0.8, 0.5));
+    const auto at = [&](double gap) { return outward * (radius + probe + gap); };
+    const double deep = -0.015;
+    setup.tools = {{"probe",
+                    sim::ToolMode::push,
+                    probe,
+                    {{0, at(0.002)}, {0.3, at(deep)}, {0.4, at(deep)}, {0.5, at(0.02)}}}};
+    const auto solver = sim::makeReferenceSolver(setup);
+    solver->advance(int(0.4 / setup.timeStep));
+    const std::vector<double> ratios = sim::cellVolumeRatios(lattice, solver->state());
+    EXPECT_GT(*std::min_element(ratios.begin(), ratios.end()), 0.2);
+    EXPECT_EQ(sim::invertedCells(lattice, solver->state()), 0u);
+    solver->advance(int(1.0 / setup.timeStep));
+    const sim::LatticeState after = solver->state();
+    double dent = 0;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        dent = std::max(dent, glm::length(after.positions[node] - lattice.restPosition(node)));
+    EXPECT_LT(dent, 0.01);
+}
+
+TEST(CellVolumes, areThoseOfAnAffineMap) {
+    const sim::Lattice lattice = test::blockLattice(3, 2, 4);
+    const glm::dmat3 map(glm::dvec3(1.2, 0.1, 0), glm::dvec3(-0.2, 0.9, 0.3), glm::dvec3(0.1, 0, 0.8));
+    sim::LatticeState state = sim::restState(lattice);
+    for (glm::dvec3& x : state.positions)
+        x = map * x + glm::dvec3(3, -2, 1);
+    for (const double ratio : sim::cellVolumeRatios(lattice, state))
+        EXPECT_NEAR(ratio, glm::determinant(map), 1e-12);
+    for (glm::dvec3& x : state.positions)
+        x.y = -x.y;
+    EXPECT_EQ(sim::invertedCells(lattice, state), lattice.cells.size());
+}
+
+TEST(StartState, fallsFromRestExactly) {
+    const sim::Lattice lattice = test::blockLattice(2, 2, 2);
+    sim::SolverSetup setup = setupOf(lattice);
+    setup.gravity = {0, -9.81, 0};
+    const auto solver = sim::makeReferenceSolver(setup);
+    solver->setState(sim::startState(setup));
+    solver->advance(200);
+    const double time = 200 * setup.timeStep;
+    const sim::LatticeState after = solver->state();
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        EXPECT_NEAR((after.positions[node] - lattice.restPosition(node)).y * lattice.spacing,
+                    -0.5 * 9.81 * time * time, 1e-9 * time * time);
+}
