@@ -72,13 +72,17 @@ std::vector<SceneKey> makeKeys() {
 
         quantity("organ.tissue", "young", Dim::pressure, {0, 1e12, true}, "\"5 kPa\"", "Young's modulus"),
         plain("organ.tissue", "poisson", Kind::number, {-1, 0.5}, "0.25",
-              "Poisson's ratio; this version takes 0.25 only, which the springs give by themselves"),
+              "Poisson's ratio, 0.25 to 0.495; above 0.25 a step costs more and is shorter (0.49: a "
+              "quarter)"),
         quantity("organ.tissue", "density", Dim::density, {0, 1e6, true}, "\"1000 kg/m3\"",
                  "mass of a volume"),
         quantity("organ.tissue", "damping_time", Dim::time, kNotNegative, "\"0.5 ms\"",
                  "damping along springs: c = damping_time * k"),
         quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
                  "drag on a node's velocity"),
+        plain("organ.tissue", "recovery", Kind::boolean, kAny, "false",
+              "cells that are pressed below 40% of their volume, or turned inside out, push back: keeps "
+              "deep pushes clean, and costs a pass"),
 
         word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region"),
         word("organ.fixed", "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),

@@ -60,14 +60,18 @@ Status readTissue(const SceneTable& table, Tissue& tissue) {
     SEROSA_TRY(table.checkKeys());
     SEROSA_TRY(table.read("young", tissue.young));
     SEROSA_TRY(table.read("poisson", tissue.poisson));
-    if (tissue.poisson != 0.25)
-        return table.errorAt(
-            "poisson", "is " + formatNumber(tissue.poisson) +
-                           ", but this version takes 0.25 only: the springs alone give it, and other values "
-                           "need a volumetric term that is not there yet");
+    if (tissue.poisson < 0.25)
+        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
+                                            ", at least 0.25 is possible: the springs give 0.25, and the "
+                                            "volumetric term can only raise it");
+    if (tissue.poisson > 0.495)
+        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
+                                            ", at most 0.495 is possible: at 0.5 nothing can be pressed "
+                                            "together, and the time step vanishes");
     SEROSA_TRY(table.read("density", tissue.density));
     SEROSA_TRY(table.read("damping_time", tissue.dampingTime));
     SEROSA_TRY(table.read("air_drag", tissue.airDrag));
+    SEROSA_TRY(table.read("recovery", tissue.recovery));
     return {};
 }
 
