@@ -104,6 +104,8 @@ void CheckList::skip(std::string name, std::string why) {
 const std::vector<VerifyGroup>& verifyGroups() {
     static const std::vector<VerifyGroup> groups = {
         {"solver", "the spring lattice against theory and against its reference", true, verifySolver},
+        {"materials", "tissue against the theory of elasticity, nearly incompressible too", true,
+         verifyMaterials},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;
