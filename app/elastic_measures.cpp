@@ -253,8 +253,17 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
             }
         }
     const Vector pressed = problem.solve(piece.lattice, bulk);
-    const double change = fit(piece, pressed, piece.turn[0])[1] + fit(piece, pressed, piece.turn[1])[2] +
-                          fit(piece, pressed, piece.turn[2])[3];
+    // Of all the material: a rough surface layer, half of so small a piece, shares the load unevenly.
+    double change = 0, volume = 0;
+    for (const sim::LatticeCell& cell : piece.lattice.cells) {
+        volume += cell.fill;
+        for (int c = 0; c < 8; ++c) {
+            const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
+            const auto node = std::size_t(piece.lattice.nodeAt(cell.grid + corner));
+            change += cell.fill * 0.25 * glm::dot(2.0 * glm::dvec3(corner) - 1.0, at(pressed, node));
+        }
+    }
+    change /= volume;
     return -pressure / change / modulus;
 }
 
