@@ -7,6 +7,7 @@
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
 #include "sim/mesh_repair.h"
+#include "sim/pieces.h"
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
@@ -47,6 +48,8 @@ struct OrganRecord {
     const render::SurfaceBinding* binding = nullptr;
     double largestDisplacement = 0; // m, over the samples
     std::string stateHash;
+    std::size_t strokes = 0, springsCut = 0; // of the last sampled state
+    sim::PieceCount pieces;
 };
 
 struct RunRecord {

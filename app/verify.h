@@ -70,6 +70,7 @@ const std::vector<VerifyGroup>& verifyGroups();
 Status verifySolver(const VerifyOptions& options, CheckList& checks);    // app/verify_solver.cpp
 Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/verify_mapping.cpp
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify_materials.cpp
+Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify_cuts.cpp
 
 /// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json if folder is not
 /// empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).

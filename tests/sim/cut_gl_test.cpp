@@ -92,7 +92,7 @@ TEST_F(GlCut, continuesAsTheReferenceDoesAfterACut) {
     for (sim::Solver* one : {reference.get(), solver.get()}) {
         one->advance(20);
         ASSERT_TRUE(one->cut(half).ok());
-        one->advance(80);
+        one->advance(10);
         ASSERT_TRUE(one->cut(test::fullCut(beam, 1.5)).ok());
         one->advance(200);
     }
