@@ -3,6 +3,7 @@
 // tool, which a second pass sums in a fixed order when they are asked for.
 #include "gpu/program.h"
 #include "shaders/shared_constants.h"
+#include "sim/cut_pass.h"
 #include "sim/solver.h"
 #include "sim/solver_program.h"
 #include "sim/state_textures.h"
@@ -28,6 +29,10 @@ public:
 
     const char* name() const override { return "compute"; }
     const Lattice& lattice() const override { return *setup_.lattice; }
+    Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
+    bool undoCut() override { return cuts_.undo(textures_); }
+    void forgetCuts() override { cuts_.forget(); }
+    Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
     const StateTextures* textures() const override { return &textures_; }
 
     void advance(int count) override {
@@ -161,6 +166,7 @@ private:
     gpu::Program stepProgram_, graspProgram_, impulseProgram_;
     gpu::Buffer impulses_, impulseSums_; // a slot (3 floats) a texel and tool; a sum a group and tool
     int impulseGroups_ = 0;
+    mutable CutPass cuts_; // programs made when first needed
     glm::ivec3 items_{0};
     std::int64_t step_ = 0;
 };

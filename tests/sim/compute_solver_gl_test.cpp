@@ -1,6 +1,7 @@
 // The compute solver against the fragment solver (the same kernel: the same bytes on software GL) and against
 // the reference, on both layouts, with and without tiles, whatever the work group's size.
 #include "shaders/shared_constants.h"
+#include "sim/blade.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
 #include "tests/gl_fixture.h"
@@ -231,6 +232,32 @@ TEST_F(GlComputeSolver, honoursTheConnectionsThatCutsLeft) {
         solver->setState(mended);
         EXPECT_TRUE(solver->state().connections.empty()) << "as built again";
     }
+}
+
+TEST_F(GlComputeSolver, cutsInTheMiddleOfARunAsTheFragmentSolverDoes) {
+    const Case c;
+    sim::Stroke stroke; // down through the shell beside its middle
+    const auto at = [&c](double y, double z) { return c.lattice.toWorld(glm::dvec3(1.3, y, z)); };
+    stroke.from = {at(6, -7), at(6, 7)};
+    stroke.to = {at(-1, -7), at(-1, 7)};
+    const auto fragment = sim::makeFragmentSolver(c.setup).value();
+    fragment->advance(60);
+    ASSERT_TRUE(fragment->cut(stroke).ok());
+    fragment->advance(60);
+    const LatticeState expected = fragment->state();
+    ASSERT_FALSE(expected.connections.empty()) << "the stroke must cut something";
+    const auto solver = sim::makeComputeSolver(c.setup).value();
+    solver->advance(60);
+    ASSERT_TRUE(solver->cut(stroke).ok());
+    solver->advance(60);
+    const LatticeState got = solver->state();
+    if (sameArithmetic()) {
+        EXPECT_EQ(got.connections, expected.connections);
+        EXPECT_EQ(got.hash(), expected.hash());
+    }
+    EXPECT_EQ(solver->pieces().value(), fragment->pieces().value());
+    EXPECT_TRUE(solver->undoCut());
+    EXPECT_TRUE(solver->state().connections.empty());
 }
 
 TEST_F(GlComputeSolver, refusesWhatDoesNotFit) {
