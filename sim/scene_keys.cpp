@@ -85,8 +85,8 @@ std::vector<SceneKey> makeKeys() {
         quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
                  "drag on a node's velocity"),
         plain("organ.tissue", "recovery", Kind::boolean, kAny, "false",
-              "cells that are pressed below 40% of their volume, or turned inside out, push back: keeps "
-              "deep pushes clean, and costs a pass"),
+              "cells that are pressed below 40% of their volume, or turned inside out, push back: a "
+              "deep push leaves no folds behind; costs a pass"),
 
         word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region"),
         word("organ.fixed", "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),
