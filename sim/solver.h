@@ -9,8 +9,8 @@
 //      P = f p(J, cof F) cof F in units of k/h;
 //   2. adds -P g_i, g_i = (+-1, +-1, +-1)/4, to the force of each of its 8 corners before the step below: all
 //      take the same P, so that the forces sum to nothing.
-// VolumeTerm::addForces is the oracle, shaders/volume_cells.frag with solver_volume.glsl (SRS_VOLUME) the GPU's
-// way. A solver without it refuses such tissue (supportsTissue).
+// VolumeTerm::addForces is the oracle, shaders/volume_cells.frag with solver_volume.glsl (SRS_VOLUME) the
+// GPU's way. A solver without it refuses such tissue (supportsTissue).
 //
 // A step, for a node of mass share m = sum(f)/8 and spring weights w (sim/lattice.h), in lattice units:
 //   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full
@@ -59,8 +59,9 @@ public:
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
 
-    // Cuts (sim/blade.h) clear connections at the positions as they are; nothing is resized. The defaults work for every
-    // solver through state() and setState(); solvers on the GPU cut in a pass, with no readback (sim/cut_pass.h).
+    // Cuts (sim/blade.h) clear connections at the positions as they are; nothing is resized. The defaults
+    // work for every solver through state() and setState(); solvers on the GPU cut in a pass, with no
+    // readback (sim/cut_pass.h).
 
     /// Errors: of the driver, where the pass is made at the first cut.
     virtual Status cut(const Stroke& stroke);
