@@ -176,13 +176,17 @@ void addVerify(CLI::App& app, Choice& choice) {
         app.add_subcommand("verify", "Verify this program on this machine against known results");
     struct Arguments {
         std::vector<std::string> groups;
-        std::string out, gl = "auto", inject;
+        std::string out, gl = "auto", inject, solver;
         bool allowSkip = false, full = false;
     };
     auto given = std::make_shared<Arguments>();
     command->add_option("groups", given->groups, "groups to run; all without")->type_name("GROUP");
     command->add_option("--out", given->out, "folder for verify.json and report.html (docs/cli.md)")
         ->type_name("DIR");
+    command
+        ->add_option("--solver", given->solver,
+                     "group solver: the one that is compared with the reference on the heart; all without")
+        ->type_name("NAME");
     command->add_flag("--full", given->full, "every figure at its full length (slow)");
     command->add_flag("--allow-skip", given->allowSkip, "a check that cannot run here is no failure");
     command
@@ -206,6 +210,9 @@ void addVerify(CLI::App& app, Choice& choice) {
                 SEROSA_ASSIGN(options.inject, parseInjection(given->inject));
             }
             options.full = given->full;
+            if (!given->solver.empty()) {
+                SEROSA_ASSIGN(options.solver, chosenSolver(given->solver));
+            }
             return runVerify(given->groups, options, given->out, given->allowSkip, std::cout);
         };
     });
@@ -268,6 +275,7 @@ std::unique_ptr<CLI::App> makeCommandTree(Choice& choice) {
     addScene(app, choice);
     addPhantom(app, choice);
     addVerify(app, choice);
+    addBench(app, choice.action);
     addDoctor(app, choice);
     app.footer("First steps:\n"
                "  serosa phantom heart -o heart.ply\n"

@@ -2,6 +2,9 @@
 
 #include "app/cli_run.h"
 
+#include "app/pick_solver.h"
+#include "app/solver_choice.h"
+#include "app/user_config.h"
 #include "app/view.h"
 #include "shaders/shared_constants.h"
 #include "sim/quantity.h"
@@ -64,8 +67,7 @@ Result<RunOptions> runOptions(const std::string& command, const RunArguments& gi
                       wordIndex("--up-axis", given.upAxis, sim::findSceneKey("organ", "up_axis")->words));
         options.upAxis = sim::UpAxis(axis);
     }
-    SEROSA_TRY(wordIndex("--solver", given.solver, {"fragment", "reference"}));
-    options.solver = given.solver;
+    SEROSA_ASSIGN(options.solver, chosenSolver(given.solver));
     SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
     SEROSA_ASSIGN(const int layout, wordIndex("--layout", given.layout, {"auto", "grid", "rows"}));
     options.layout = layout == 0 ? -1 : layout == 1 ? SRS_LAYOUT_GRID : SRS_LAYOUT_ROWS;
@@ -122,8 +124,10 @@ void addSceneOptions(CLI::App& command, RunArguments& given) {
         ->type_name("L")
         ->excludes("--nodes");
     command
-        .add_option("--solver", given.solver,
-                    "fragment (on the GPU) or reference (CPU, double precision, slow)")
+        .add_option(
+            "--solver", given.solver,
+            "fragment or compute (on the GPU), cpu (all cores), reference (CPU, double precision, slow), or "
+            "picked: what 'serosa bench --pick' found fastest here")
         ->default_str("fragment");
     command
         .add_option("--layout", given.layout,
@@ -165,6 +169,57 @@ void addRepairFlag(CLI::App& command, bool& repair) {
 /// An unset variable of a script must not choose a folder.
 std::string notEmpty(const std::string& text) {
     return text.empty() ? "is empty: name a folder, or leave the option out" : "";
+}
+
+Result<std::string> chosenSolver(const std::string& text) {
+    std::vector<std::string> words = solverNames();
+    words.push_back("picked");
+    SEROSA_TRY(wordIndex("--solver", text, words));
+    if (text != "picked")
+        return text;
+    const Result<PickedSolver> picked = readPickedSolver();
+    if (!picked)
+        return Error{"--solver picked: " + picked.error().message};
+    return picked->solver;
+}
+
+void addBench(CLI::App& app, std::function<Result<int>()>& action) {
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure the solvers on this machine and pick the fastest");
+    struct Arguments {
+        std::string gl = "auto";
+        bool pick = false;
+        PickOptions options;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_flag("--pick", given->pick, "write the fastest to the user's configuration (required)")
+        ->required();
+    command->add_option("--nodes", given->options.nodes, "lattice nodes aimed at")
+        ->type_name("N")
+        ->check(CLI::Range(8, 1000000000))
+        ->default_str("20000");
+    command->add_option("--rounds", given->options.rounds, "interleaved rounds")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000))
+        ->default_str("5");
+    command->add_option("--seconds", given->options.seconds, "length of a turn of a solver")
+        ->type_name("S")
+        ->check(CLI::Range(0.001, 60.0))
+        ->default_str("0.3");
+    addGlOption(*command, given->gl);
+    command->footer(
+        "Let nothing else run meanwhile. The configuration is $XDG_CONFIG_HOME/serosa/config.toml, or "
+        "~/.config/serosa/config.toml;\n"
+        "'--solver picked' of run, view and verify reads it, nothing else does.\n"
+        "Example:\n  serosa bench --pick --nodes 50000\n"
+        "Exit codes: 0 picked, 1 a solver does not agree with the reference, 2 bad input, 5 no OpenGL "
+        "context.");
+    command->callback([given, &action] {
+        action = [given]() -> Result<int> {
+            SEROSA_ASSIGN(given->options.gl, gpu::parseGlChoice(given->gl));
+            return pickFastestSolver(given->options, std::cout);
+        };
+    });
 }
 
 void addRun(CLI::App& app, std::function<Result<int>()>& action) {

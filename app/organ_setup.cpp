@@ -78,6 +78,9 @@ Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice
             if (lattice.toWorld(lattice.restPosition(node)).y <= limit)
                 fixed[node] = true;
     }
+    if (std::find(fixed.begin(), fixed.end(), false) == fixed.end())
+        return Error{scenePosition(scene, organ.fixed.empty() ? 0 : organ.fixed.back().line) + organ.name +
+                     ": every node is fixed, so that nothing can move: make the fixed regions smaller"};
     return fixed;
 }
 

@@ -35,7 +35,8 @@ sim::TriangleMesh deformedFile(const sim::Organ& organ, const OrganSurface& surf
 /// that. \param scene for messages; may be empty.
 Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem::path& scene);
 
-/// One flag a node. Errors: a region that holds no node (its unit or position is wrong), naming its line.
+/// One flag a node. Errors: a region that holds no node (its unit or position is wrong), naming its line;
+/// everything is fixed.
 Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice& lattice,
                                      const sim::TriangleMesh& metres, const std::filesystem::path& scene);
 

@@ -185,6 +185,7 @@ private:
             OrganRecord& record = record_.organs[i];
             record.stateHash = now.hash();
             record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
+            countCuts(i, now);
             if (!moved.finite) {
                 record_.end = "not finite";
                 failure_ = "the position of node " + std::to_string(moved.node) + inOrgan(i) +
@@ -217,6 +218,18 @@ private:
             view.toolSpheres.emplace_back(tool.centreAt(frame * frameTime_), tool.radius);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
+    }
+
+    /// Strokes, springs and pieces of an organ that was cut.
+    void countCuts(std::size_t i, const sim::LatticeState& now) {
+        OrganRecord& record = record_.organs[i];
+        record.strokes = player_.cuts(i).strokes();
+        if (record.strokes == 0)
+            return;
+        const sim::Lattice& lattice = parts_.organs[i]->lattice;
+        const auto& connections = now.connections.empty() ? lattice.connections : now.connections;
+        record.springsCut = sim::springsCut(lattice, connections);
+        record.pieces = sim::countPieces(sim::pieceLabels(lattice, connections));
     }
 
     Status picture(int frame) {
@@ -304,6 +317,10 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
         if (tool.radius < kLeastToolSpacings * parts.lattice.spacing)
             out << "note: " << tool.name << " has a radius of " << shortNumber(1e3 * tool.radius)
                 << " mm; below " << kLeastToolSpacings << " spacings it slips between the lattice's nodes\n";
+    const std::vector<bool>& fixed = parts.setup.fixed;
+    if (parts.solver && scene.gravity != glm::dvec3(0) &&
+        std::find(fixed.begin(), fixed.end(), true) == fixed.end())
+        out << "note: no node of " << organ.name << " is fixed, and there is no floor: it falls\n";
     if (parts.binding.tornEdgesFound > 0)
         out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
             << " left after flooding\n";

@@ -18,7 +18,7 @@ struct RunOptions {
     std::string lengthUnit;      // and its unit: "mm",
     sim::UpAxis upAxis = sim::UpAxis::y;
     bool repair = false;             // and whether to mend it
-    std::string solver = "fragment"; // or "reference"
+    std::string solver = "fragment"; // of solverNames() (app/solver_choice.h)
     gpu::GlChoice gl = gpu::GlChoice::automatic;
     int layout = -1;                  // SRS_LAYOUT_..., -1: by how full the grid is
     std::optional<int> frames;        // each of these replaces what the scene says

@@ -3,6 +3,7 @@
 #include "app/run_setup.h"
 
 #include "app/pose.h"
+#include "app/solver_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,18 +82,15 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     return {};
 }
 
-Status makeSolver(const RunOptions& options, bool pose, OrganParts& parts) {
-    if (pose || options.solver == "reference") {
-        if (!pose)
-            parts.solver = sim::makeReferenceSolver(parts.setup);
-        SEROSA_ASSIGN(sim::StateTextures textures,
-                      sim::StateTextures::create(parts.lattice, parts.setup.fixed, options.layout));
-        parts.uploaded.emplace(std::move(textures));
-        return {};
+Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts) {
+    if (!pose) {
+        SEROSA_ASSIGN(parts.solver, makeSolver(options.solver, parts.setup, options.layout));
+        if (parts.solver->textures())
+            return {};
     }
-    sim::FragmentOptions fragment;
-    fragment.layout = options.layout;
-    SEROSA_ASSIGN(parts.solver, sim::makeFragmentSolver(parts.setup, fragment));
+    SEROSA_ASSIGN(sim::StateTextures textures,
+                  sim::StateTextures::create(parts.lattice, parts.setup.fixed, options.layout));
+    parts.uploaded.emplace(std::move(textures));
     return {};
 }
 
@@ -130,7 +128,7 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     SEROSA_ASSIGN(parts.context, makeContext ? makeContext(parts.scene) : gpu::createContext(options.gl));
     for (std::size_t i = 0; i < parts.organs.size(); ++i) {
         OrganParts& organ = *parts.organs[i];
-        SEROSA_TRY(makeSolver(options, parts.scene.organs[i].pose.has_value(), organ));
+        SEROSA_TRY(makeOrganSolver(options, parts.scene.organs[i].pose.has_value(), organ));
         organ.binding = render::bindSurface(organ.lattice, organ.surface.metres, parts.surfaceMapping());
         if (i > 0) {
             SEROSA_TRY(parts.renderer->addOrgan(organ.lattice, organ.surface.metres, organ.binding,

@@ -4,13 +4,55 @@
 
 #include "app/pose.h"
 #include "app/summary.h"
+#include "base/check.h"
 
 #include <algorithm>
 
 namespace serosa::app {
 
-ScenePlayer::ScenePlayer(RunParts& parts) : parts_(parts), posed_(parts.organs.size()) {
+ScenePlayer::ScenePlayer(RunParts& parts)
+    : parts_(parts), cuts_(parts.organs.size()), lastCut_(parts.organs.size()),
+      shownConnections_(parts.organs.size()), posed_(parts.organs.size()) {
     reset();
+}
+
+void ScenePlayer::cut(std::size_t i) {
+    OrganParts& organ = *parts_.organs[i];
+    const double from = (frame_ - 1) / parts_.scene.frameRate, to = time();
+    const std::int64_t step = std::int64_t(frame_) * organ.step.stepsPerFrame;
+    std::vector<sim::Stroke> strokes;
+    for (std::size_t c = 0; c < parts_.scene.cuts.size(); ++c) {
+        std::vector<sim::Stroke> more = parts_.scene.cuts[c].strokes(from, to);
+        if (more.empty())
+            continue;
+        // A part continues the stroke before it; where several cuts move at once, each part is a stroke.
+        more.front().continues = more.front().continues && lastCut_[i] == c;
+        lastCut_[i] = c;
+        strokes.insert(strokes.end(), more.begin(), more.end());
+    }
+    if (const double strain = parts_.scene.organs[i].tearStrain; strain > 0) {
+        sim::Stroke tear;
+        tear.kind = sim::StrokeKind::tear;
+        tear.strain = strain;
+        tear.continues = strokes.empty() && !cuts_[i].entries().empty();
+        strokes.push_back(tear);
+    }
+    for (const sim::Stroke& stroke : strokes) {
+        const Status done = cuts_[i].cut(*organ.solver, step, stroke);
+        SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
+    }
+    if (!strokes.empty())
+        showCuts(i);
+}
+
+void ScenePlayer::showCuts(std::size_t i) {
+    const OrganParts& organ = *parts_.organs[i];
+    const std::vector<std::uint32_t> connections = organ.solver->state().connections;
+    if (connections != shownConnections_[i])
+        parts_.renderer->showCuts(i, organ.lattice, organ.surface.metres, organ.binding,
+                                  organ.textures().layout(),
+                                  connections.empty() ? organ.lattice.connections : connections);
+    shownConnections_[i] = connections;
 }
 
 void ScenePlayer::advance() {
@@ -19,6 +61,7 @@ void ScenePlayer::advance() {
         OrganParts& organ = *parts_.organs[i];
         if (organ.solver) {
             organ.solver->advance(organ.step.stepsPerFrame);
+            cut(i);
             if (organ.uploaded)
                 organ.uploaded->upload(organ.solver->state());
             continue;
@@ -37,6 +80,9 @@ void ScenePlayer::reset() {
         posed_[i].reset();
         if (organ.solver) {
             organ.solver->setState(sim::startState(organ.setup));
+            organ.solver->forgetCuts();
+            cuts_[i].clear();
+            showCuts(i);
             organ.solver->takeToolImpulses();
         }
         if (organ.uploaded)

@@ -3,6 +3,7 @@
 // them is the same bytes however they were paced and drawn: `serosa view` plays what `serosa run` runs.
 
 #include "app/run_setup.h"
+#include "sim/cut_list.h"
 #include "sim/lattice_state.h"
 
 #include <optional>
@@ -28,15 +29,25 @@ public:
     int stepsPerFrame() const;
     /// Reads an organ's state back (stalls).
     sim::LatticeState state(std::size_t organ) const;
+    /// The strokes that an organ met so far.
+    const sim::CutList& cuts(std::size_t organ) const { return cuts_[organ]; }
     /// Of all organs, joined by '-': `state_hash` of a run's summary after as many frames.
     std::string stateHash() const;
     /// The first organ with a node that is not finite, in words; empty where all are.
     std::string runaway() const;
 
 private:
+    /// The scene's cuts and tears of the frame that ends now.
+    void cut(std::size_t organ);
+    /// Lets the renderer draw what cuts left, if they changed anything. Reads the bits back (stalls).
+    void showCuts(std::size_t organ);
+
     RunParts& parts_;
     int frame_ = 0;
-    std::vector<std::optional<sim::LatticeState>> posed_; // one an organ
+    std::vector<sim::CutList> cuts_;                           // one an organ
+    std::vector<std::size_t> lastCut_;                         // of the scene, that each organ met
+    std::vector<std::vector<std::uint32_t>> shownConnections_; // one an organ; empty: nothing is cut
+    std::vector<std::optional<sim::LatticeState>> posed_;      // one an organ
 };
 
 } // namespace serosa::app

@@ -94,6 +94,13 @@ Json bindingJson(const render::SurfaceBinding& binding) {
             {"bytes_per_vertex", binding.bytesPerVertex}};
 }
 
+Json cutsJson(const OrganRecord& record) {
+    return {{"strokes", record.strokes},
+            {"springs_cut", record.springsCut},
+            {"pieces", record.pieces.pieces},
+            {"loose_nodes", record.pieces.loose}};
+}
+
 /// What a scene of one organ says at the top of the summary, together.
 Json organsJson(const RunRecord& record) {
     Json organs = Json::array();
@@ -104,6 +111,8 @@ Json organsJson(const RunRecord& record) {
         json["lattice"] = latticeJson(organ);
         json["step"] = stepJson(organ.step);
         json["binding"] = bindingJson(*organ.binding);
+        if (organ.strokes > 0)
+            json["cuts"] = cutsJson(organ);
         json["largest_displacement_m"] = organ.largestDisplacement;
         json["inverted_cells"] = organ.invertedCells;
         json["state_hash"] = organ.stateHash;
@@ -228,6 +237,8 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     json["surfaces"] = record.surfacesWritten;
     if (single)
         json["binding"] = bindingJson(*record.organs.front().binding);
+    if (single && record.organs.front().strokes > 0)
+        json["cuts"] = cutsJson(record.organs.front());
     json["largest_displacement_m"] = record.largestDisplacement;
     if (single)
         json["inverted_cells"] = record.organs.front().invertedCells;

@@ -7,6 +7,7 @@
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
 #include "sim/mesh_repair.h"
+#include "sim/pieces.h"
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
@@ -48,6 +49,8 @@ struct OrganRecord {
     double largestDisplacement = 0; // m, over the samples
     std::size_t invertedCells = 0;  // most at one sample (sim/cell_volumes.h)
     std::string stateHash;
+    std::size_t strokes = 0, springsCut = 0; // of the last sampled state
+    sim::PieceCount pieces;
 };
 
 struct RunRecord {

@@ -128,6 +128,10 @@ void CheckList::skip(std::string name, std::string why) {
 const std::vector<VerifyGroup>& verifyGroups() {
     static const std::vector<VerifyGroup> groups = {
         {"solver", "the spring lattice against theory and against its reference", true, verifySolver},
+        {"materials", "tissue against the theory of elasticity, nearly incompressible too", true,
+         verifyMaterials},
+        {"cuts", "strokes through the lattice: what they cut, on CPU and GPU, and what falls apart", true,
+         verifyCuts},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;

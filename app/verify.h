@@ -38,8 +38,9 @@ struct Injection {
 struct VerifyOptions {
     gpu::GlChoice gl = gpu::GlChoice::automatic;
     Injection inject;
-    bool full = false; // --full: every figure at its full length (nightly); else the same checks on shorter
-                       // runs where said
+    std::string solver; // group solver: compared with the reference on the heart; empty: all
+    bool full = false;  // --full: every figure at its full length (nightly); else the same checks on shorter
+                        // runs where said
 };
 
 /// Collects the checks of one group.
@@ -62,11 +63,14 @@ struct VerifyGroup {
     bool needsGl = false;
     std::function<Status(const VerifyOptions&, CheckList&)> run;
 };
-/// "solver" (app/verify_solver.cpp), "mapping" (app/verify_mapping.cpp).
+/// "solver" (app/verify_solver.cpp), "mapping" (app/verify_mapping.cpp), "materials"
+/// (app/verify_materials.cpp).
 const std::vector<VerifyGroup>& verifyGroups();
 
-Status verifySolver(const VerifyOptions& options, CheckList& checks);  // app/verify_solver.cpp
-Status verifyMapping(const VerifyOptions& options, CheckList& checks); // app/verify_mapping.cpp
+Status verifySolver(const VerifyOptions& options, CheckList& checks);    // app/verify_solver.cpp
+Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/verify_mapping.cpp
+Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify_materials.cpp
+Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify_cuts.cpp
 
 /// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json and report.html if
 /// folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).

@@ -35,6 +35,11 @@ Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block,
 /// scalar_over_fragment_dense20k, and what normals, eq. 2, imageLoad and damping cost
 /// (bench/solver_cases.cpp).
 Status benchSolver(const Options& options, Report& report);
+/// fragment_over_cpu_..., cpu_share_of_fma_peak, bullet_over_cpu and bullet_over_fragment
+/// (bench/cpu_cases.cpp).
+Status benchCpu(const Options& options, Report& report);
+/// compute_over_fragment_(dense|sparse)20k, and what work groups and tiles do (bench/compute_cases.cpp).
+Status benchCompute(const Options& options, Report& report);
 /// mapping_over_static, corrected_over_constant(_frame), vertex fetch against readback, and MS05's own table
 /// (bench/mapping_cases.cpp).
 Status benchMapping(const Options& options, Report& report);

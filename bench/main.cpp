@@ -14,11 +14,12 @@ namespace {
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {
     const std::map<std::string, Status (*)(const Options&, Report&)> all{
-        {"solver", benchSolver}, {"mapping", benchMapping}, {"growth", benchGrowth}, {"large", benchLarge}};
+        {"solver", benchSolver},   {"cpu", benchCpu},       {"compute", benchCompute},
+        {"mapping", benchMapping}, {"growth", benchGrowth}, {"large", benchLarge}};
     report.line("Renderer: " + context.info().renderer + ", " + context.info().version + ". " +
                 std::to_string(options.rounds) +
                 " interleaved rounds; median (smallest-largest). Only ratios count.");
-    for (const char* group : {"solver", "mapping", "growth", "large"})
+    for (const char* group : {"solver", "cpu", "compute", "mapping", "growth", "large"})
         if (groups.empty() || std::find(groups.begin(), groups.end(), group) != groups.end())
             SEROSA_TRY(all.at(group)(options, report));
     report.ratioTable();
@@ -35,8 +36,8 @@ int main(int argc, char** argv) {
     bench::Options options;
     std::vector<std::string> groups;
     std::string folder = "out/bench", gl = "auto";
-    app.add_option("group", groups, "solver, mapping, growth, large; all if none is named")
-        ->check(CLI::IsMember({"solver", "mapping", "growth", "large"}));
+    app.add_option("group", groups, "solver, cpu, compute, mapping, growth, large; all if none is named")
+        ->check(CLI::IsMember({"solver", "cpu", "compute", "mapping", "growth", "large"}));
     app.add_option("--rounds", options.rounds, "interleaved rounds")->check(CLI::Range(1, 1000));
     app.add_option("--seconds", options.seconds, "length of a turn of a case")
         ->check(CLI::Range(0.001, 60.0));

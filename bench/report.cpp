@@ -22,7 +22,13 @@ struct Target {
     double must, goal;
 };
 // docs/performance.md says what each one is.
-constexpr Target kTargets[] = {{"scalar_over_fragment_dense20k", true, 2.5, 4},
+constexpr Target kTargets[] = {{"fragment_over_cpu_dense20k", false, 4, 2},
+                               {"fragment_over_cpu_sparse20k", false, 5.5, 2.5},
+                               {"fragment_over_cpu_dense1m", false, 5.5, 3},
+                               {"cpu_share_of_fma_peak", true, 0.20, 0.35},
+                               {"bullet_over_cpu", true, 30, 60},
+                               {"bullet_over_fragment", true, 10, 20},
+                               {"scalar_over_fragment_dense20k", true, 2.5, 4},
                                {"mapping_over_static", false, 2.5, 1.5},
                                {"corrected_over_constant", false, 1.4, 1.1},
                                {"corrected_over_constant_frame", false, 1.2, 1.03}};

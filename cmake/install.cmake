@@ -61,6 +61,7 @@ This package holds static libraries, headers and a CMake package: lattices,
 solvers, surface mappings, OpenGL contexts.")
 # What cmake/serosaConfig.cmake.in finds.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libegl-dev, libgl-dev, libglfw3-dev, libglm-dev, \
-libmeshoptimizer-dev, libopenmesh-dev, libpng-dev, libspdlog-dev, libtomlplusplus-dev, libxxhash-dev, pkg-config")
+libhwy-dev, libmeshoptimizer-dev, libopenmesh-dev, libpng-dev, libspdlog-dev, libtbb-dev, libtomlplusplus-dev, libxxhash-dev, \
+pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "serosa")
 include(CPack)

@@ -5,6 +5,8 @@
 #include "base/check.h"
 #include "gpu/label.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <array>
 #include <utility>
 
@@ -74,6 +76,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(inputs_, other.inputs_);
     std::swap(name_, other.name_);
     std::swap(source_, other.source_);
+    std::swap(groupSize_, other.groupSize_);
     std::swap(tolerant_, other.tolerant_);
     std::swap(mismatches_, other.mismatches_);
     return *this;
@@ -118,7 +121,22 @@ Result<Program> Program::create(const ShaderLibrary& library, const std::vector<
         return Error{program.name_ + " does not link:\n" + programLog(program.id_)};
     labelObject(GL_PROGRAM, program.id_, program.name_);
     SEROSA_TRY(program.listInputs());
+    program.listStorageBlocks();
+    if (stages.size() == 1 && stages.front().ends_with(".comp"))
+        glGetProgramiv(program.id_, GL_COMPUTE_WORK_GROUP_SIZE, glm::value_ptr(program.groupSize_));
     return program;
+}
+
+void Program::dispatch(const glm::ivec3& items) const {
+    SEROSA_CHECK(groupSize_.x > 0, name_ + " is dispatched and has no compute stage");
+    glm::uvec3 groups(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        SEROSA_CHECK(items[axis] > 0, name_ + ": a dispatch of nothing");
+        groups[axis] = static_cast<GLuint>((items[axis] - 1) / groupSize_[axis] + 1);
+        SEROSA_CHECK(groups[axis] <= 65535, name_ + ": more work groups than GL 4.5 promises");
+    }
+    use();
+    glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
 void drawFullScreen(const VertexArray& emptyVertexArray) {

@@ -97,10 +97,17 @@ public:
     /// Image `i_...` (image2D, uimage2D): remembers texture and access; bound by use(). access: GL_READ_ONLY,
     /// ...
     Program& image(const std::string& name, const Texture2D& texture, GLenum access);
+    /// Storage block `b_...`: remembers the buffer (which must outlive the draw or dispatch); bound by use().
+    Program& buffer(const std::string& name, const Buffer& buffer);
 
-    /// glUseProgram and binds samplers and images. SEROSA_CHECKs, naming the input, that every active one was
-    /// set.
+    /// glUseProgram and binds samplers, images and storage blocks. SEROSA_CHECKs, naming the input, that
+    /// every active one was set.
     void use() const;
+    /// Compute: uses the program and runs at least `items` invocations along x, y, z, in whole work groups
+    /// (the shader ignores those beyond). What it wrote is visible to others after a glMemoryBarrier.
+    void dispatch(const glm::ivec3& items) const;
+    /// Compute: invocations of a work group along x, y, z; 0 where the program has no compute stage.
+    const glm::ivec3& groupSize() const { return groupSize_; }
     /// Names of active inputs that were never set; empty when use() would succeed.
     std::vector<std::string> unsetInputs() const;
 
@@ -112,25 +119,28 @@ public:
     std::vector<std::string> takeMismatches();
 
 private:
-    struct Input { // one active uniform, sampler or image
+    struct Input { // one active uniform, sampler, image or storage block
         GLint location = -1;
         GLenum type = 0;
         GLint count = 1; // elements of an array
         bool isSet = false;
-        int unit = -1;        // samplers and images
+        int unit = -1;        // samplers, images; a storage block's binding
         GLuint textureId = 0; // samplers and images
+        GLuint bufferId = 0;  // storage blocks
         GLenum imageAccess = 0, imageFormat = 0;
     };
     /// The input to set, or null for one that the compiler removed; aborts on an unknown name or another
     /// type.
     Input* find(const std::string& name, std::initializer_list<GLenum> types, std::size_t count = 1);
     Status listInputs();
+    void listStorageBlocks();
     /// Aborts unless mismatches are tolerated.
     void mismatch(const std::string& what) const;
 
     std::map<std::string, Input> inputs_;
     std::string name_;   // stages, for messages
     std::string source_; // all stages, to tell an inactive name from an unknown one
+    glm::ivec3 groupSize_{0};
     bool tolerant_ = false;
     mutable std::set<std::string> mismatches_;
 };

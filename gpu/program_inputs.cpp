@@ -71,6 +71,24 @@ Status Program::listInputs() {
     return {};
 }
 
+void Program::listStorageBlocks() {
+    GLint count = 0, longest = 0;
+    glGetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    glGetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_MAX_NAME_LENGTH, &longest);
+    for (GLint index = 0; index < count; ++index) {
+        std::string name(static_cast<std::size_t>(longest), '\0');
+        GLsizei length = 0;
+        glGetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, static_cast<GLuint>(index), longest, &length,
+                                 name.data());
+        name.resize(static_cast<std::size_t>(length));
+        Input input;
+        input.type = GL_SHADER_STORAGE_BUFFER;
+        input.unit = index;
+        glShaderStorageBlockBinding(id_, static_cast<GLuint>(index), static_cast<GLuint>(index));
+        inputs_.emplace(name, input);
+    }
+}
+
 void Program::mismatch(const std::string& what) const {
     SEROSA_CHECK(tolerant_, name_ + what);
     mismatches_.insert(name_ + what);
@@ -201,6 +219,14 @@ Program& Program::image(const std::string& name, const Texture2D& texture, GLenu
     return *this;
 }
 
+Program& Program::buffer(const std::string& name, const Buffer& buffer) {
+    if (Input* input = find(name, {GL_SHADER_STORAGE_BUFFER})) {
+        SEROSA_CHECK(buffer, name_ + ": input \"" + name + "\" was given an empty buffer");
+        input->bufferId = buffer.id();
+    }
+    return *this;
+}
+
 std::vector<std::string> Program::unsetInputs() const {
     std::vector<std::string> names;
     for (const auto& [name, input] : inputs_)
@@ -214,8 +240,14 @@ void Program::use() const {
     for (const auto& [name, input] : inputs_) {
         if (!input.isSet)
             mismatch(": input \"" + name + "\" was never set");
-        if (input.unit < 0 || (tolerant_ && input.textureId == 0))
+        if (input.unit < 0 || (tolerant_ && input.textureId == 0 && input.bufferId == 0))
             continue;
+        if (input.type == GL_SHADER_STORAGE_BUFFER) {
+            SEROSA_CHECK(glIsBuffer(input.bufferId),
+                         name_ + ": the buffer of input \"" + name + "\" is gone");
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(input.unit), input.bufferId);
+            continue;
+        }
         SEROSA_CHECK(glIsTexture(input.textureId), name_ + ": the texture of input \"" + name + "\" is gone");
         const auto unit = static_cast<GLuint>(input.unit);
         if (isImage(input.type))

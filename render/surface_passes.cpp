@@ -127,9 +127,13 @@ void SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::Trian
                              offsetof(StaticVertex, colour));
     geometry.array.indices(indices_);
 
-    // One-to-one: the boundary's triangles, one vertex a surface node.
-    std::vector<std::uint32_t> vertexOfNode(lattice.nodeCount(), ~0U), nodeIndices, texels;
-    for (const glm::uvec3& t : lattice.boundary)
+    createNodes(lattice.boundary, layout);
+}
+
+/// One-to-one: the boundary's triangles, one vertex a surface node.
+void SurfacePasses::createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout) {
+    std::vector<std::uint32_t> vertexOfNode(layout.texelOfNode.size(), ~0U), nodeIndices, texels;
+    for (const glm::uvec3& t : boundary)
         for (int i = 0; i < 3; ++i) {
             if (vertexOfNode[t[i]] == ~0U) {
                 vertexOfNode[t[i]] = std::uint32_t(texels.size());
@@ -144,6 +148,21 @@ void SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::Trian
     nodes.array = gpu::VertexArray("surface nodes");
     nodes.array.integerAttribute(0, nodes.vertices, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), 0);
     nodes.array.indices(nodeIndices_);
+}
+
+void SurfacePasses::show(const std::vector<glm::uvec3>& faces, const std::vector<bool>& left,
+                         const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout) {
+    SEROSA_CHECK(left.size() == faces.size(), "one flag a face");
+    std::vector<std::uint32_t> indices;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (int i = 0; i < 3 && left[f]; ++i)
+            indices.push_back(newIndex_[faces[f][i]]);
+    indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(indices));
+    indexCount_ = int(indices.size());
+    for (const SurfaceStage stage :
+         {SurfaceStage::constant, SurfaceStage::corrected, SurfaceStage::undeformed})
+        geometry_.at(stage).array.indices(indices_);
+    createNodes(boundary, layout);
 }
 
 Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,

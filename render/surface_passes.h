@@ -40,6 +40,11 @@ public:
     };
     Captured capture(const sim::StateTextures& state, SurfaceStage stage);
 
+    /// Draws from now on only these faces of the mesh (one flag a face), and these triangles over nodes for
+    /// stage nodes.
+    void show(const std::vector<glm::uvec3>& faces, const std::vector<bool>& left,
+              const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
+
 private:
     struct Geometry {
         gpu::VertexArray array;
@@ -50,6 +55,7 @@ private:
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
     void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                         const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage);

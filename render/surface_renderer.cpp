@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "gpu/gl.h"
+#include "render/cut_faces.h"
 #include "render/frame.h"
 #include "render/lattice_overlay.h"
 #include "render/picture_target.h"
@@ -115,6 +116,14 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
                                       ? LatticeOverlay::Ink::dark
                                       : LatticeOverlay::Ink::light);
     in.target.end();
+}
+
+void SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
+                               const sim::TriangleMesh& metres, const SurfaceBinding& binding,
+                               const sim::TextureLayout& layout,
+                               const std::vector<std::uint32_t>& connections) {
+    impl_->organs.at(organ).surface.show(metres.faces, facesLeft(lattice, metres.faces, binding, connections),
+                                         boundaryLeft(lattice, connections), layout);
 }
 
 void SurfaceRenderer::resize(int width, int height) {

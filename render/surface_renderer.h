@@ -47,6 +47,12 @@ public:
     Status addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                     const SurfaceBinding& binding, const sim::StateTextures& state);
 
+    /// After cuts: draws from now on what they left of an organ's surface (render/cut_faces.h). The arguments
+    /// are those that the organ was added with; connections: 18 bits a node.
+    void showCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                  const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                  const std::vector<std::uint32_t>& connections);
+
     /// Another size of the target, pixels; what was drawn is lost.
     void resize(int width, int height);
     /// Takes the drawing shaders from another source, and draws every way there is to see that they fit.

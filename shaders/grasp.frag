@@ -1,27 +1,7 @@
-// Takes hold of the nodes inside a grasping sphere, or lets them go, by rewriting the node info texture: twin of
-// updateHeldNodes in sim/tool_motion.cpp.
+// The grasp pass of the fragment solver.
 #version 450 core
-#include "shared_constants.h"
-
-layout(rgba32ui) uniform readonly restrict uimage2D i_nodeInfo;
-layout(rgba32f) uniform readonly restrict image2D i_positions;
-uniform vec4 u_sphere; // centre and radius, lattice units
-uniform uint u_holder; // 1 + tool index
-uniform int u_closes;  // 1: takes hold, 0: lets go
+#include "grasp.glsl"
 
 layout(location = 0) out uvec4 o_nodeInfo;
 
-void main() {
-    ivec2 texel = ivec2(gl_FragCoord.xy);
-    uvec4 info = imageLoad(i_nodeInfo, texel);
-    uint holder = (info.x >> SRS_HELD_SHIFT) & SRS_HELD_MASK;
-    if (u_closes == 0) {
-        if (holder == u_holder)
-            holder = 0u;
-    } else if (holder == 0u && (info.x & SRS_FLAG_ACTIVE) != 0u && (info.x & SRS_FLAG_FIXED) == 0u &&
-               distance(imageLoad(i_positions, texel).xyz, u_sphere.xyz) < u_sphere.w) {
-        holder = u_holder;
-    }
-    info.x = (info.x & ~(SRS_HELD_MASK << SRS_HELD_SHIFT)) | (holder << SRS_HELD_SHIFT);
-    o_nodeInfo = info;
-}
+void main() { o_nodeInfo = infoAfterGrasp(ivec2(gl_FragCoord.xy)); }

@@ -4,7 +4,9 @@
 // beginAddresses(texel) once, then neighbourTexel(dx, dy, dz) with constants.
 #include "shared_constants.h"
 
-#if SRS_LAYOUT == SRS_LAYOUT_GRID
+#if defined SRS_TILES
+#include "solver_tile.glsl"
+#elif SRS_LAYOUT == SRS_LAYOUT_GRID
 
 ivec2 g_texel;
 void beginAddresses(ivec2 texel) { g_texel = texel; }

@@ -19,6 +19,16 @@
 // (-,0,-), 12 (+,0,-), 13 (-,0,+), 14 (0,+,+), 15 (0,-,-), 16 (0,+,-), 17 (0,-,+)
 #define SRS_NEIGHBOURS 18
 
+// The six connections that stay inside a cell from its corner c (at +x if c&1, +y if c&2, +z if c&4)
+#define SRS_IN_CELL_0 0x04455u
+#define SRS_IN_CELL_1 0x06216u
+#define SRS_IN_CELL_2 0x20519u
+#define SRS_IN_CELL_3 0x2209au
+#define SRS_IN_CELL_4 0x11065u
+#define SRS_IN_CELL_5 0x10a26u
+#define SRS_IN_CELL_6 0x09129u
+#define SRS_IN_CELL_7 0x088aau
+
 // Texture layouts of the lattice (sim/texture_layout.h)
 #define SRS_LAYOUT_GRID 0 // whole grid in strips: width nx, height ny*nz
 #define SRS_LAYOUT_ROWS 1 // nodes only, row after row; eight row offsets a node
@@ -28,9 +38,23 @@
 #define SRS_TOOL_PUSH 1
 #define SRS_TOOL_GRASP 2
 
+// Strokes (sim/blade.h). The last three are powers of two, exact as float and as double.
+#define SRS_STROKE_BLADE 0
+#define SRS_STROKE_CAUTERIZE 1
+#define SRS_STROKE_TEAR 2
+#define SRS_HIGHER_DIRECTIONS 0x26655u              // connections that lead to a node with a higher index
+#define SRS_BLADE_ROUNDING 5.684341886080802e-14 // 2^-44: bound of all rounding, a unit of size and normal
+#define SRS_BLADE_FLAT 5.9604644775390625e-8     // 2^-24 h: a strip that turns by less counts as flat
+#define SRS_BLADE_MOST_TESTS 2048                // of strips, a spring
+
 // Packed normals: octahedral, 15 bits a coordinate, bits 30 and 23 fixed so that the float is never NaN,
 // infinite or denormal.
 #define SRS_NORMAL_HALF_STEPS 16380.0 // of a coordinate -1..1 on either side of 0; divides by 2, 3 and 4
+
+// The volumetric term (sim/volume_term.h)
+#define SRS_VOLUME_STIFFENING 3.5 // |cof F|^2 beyond which a squeezed cell stiffens no further; at rest 3
+#define SRS_COLLAPSED 0.4         // cells below this share of their volume push back, where recovery is asked
+#define SRS_RECOVERY 3.0          // for; its stiffness in units of k/h
 
 // Surface mapping modes, a vertex
 #define SRS_BASIS_CONSTANT 0u

@@ -39,6 +39,10 @@ void addSpring(float weight, float rest, float rest2, ivec2 texel) {
 #endif
 }
 
+#ifdef SRS_VOLUME
+#include "solver_volume.glsl"
+#endif
+
 float connected(uint bits, int d) { return float((bits >> d) & 1u); }
 
 /// Force in units of k h / 1020, and the sum of unit vectors; returns the sum of the node's fills (0 .. 2040).
@@ -76,5 +80,8 @@ float sumSprings(uvec4 info, vec3 position, vec3 increment) {
     addSpring(connected(bits, 15) * 2.0 * yBelow.x, diagonal, 2.0, neighbourTexel(0, -1, -1, ROW_yz));
     addSpring(connected(bits, 16) * 2.0 * yBelow.y, diagonal, 2.0, neighbourTexel(0, 1, -1, ROW_Yz));
     addSpring(connected(bits, 17) * 2.0 * yAbove.x, diagonal, 2.0, neighbourTexel(0, -1, 1, ROW_yZ));
+#ifdef SRS_VOLUME
+    addVolume(info);
+#endif
     return zBelow + zAbove;
 }

@@ -3,11 +3,11 @@
 // texture a tool.
 #include "gpu/program.h"
 #include "shaders/shared_constants.h"
+#include "sim/cut_pass.h"
 #include "sim/solver.h"
+#include "sim/solver_program.h"
 #include "sim/state_textures.h"
 #include "sim/tool_motion.h"
-
-#include <bit>
 
 namespace serosa::sim {
 
@@ -20,6 +20,7 @@ public:
     }
 
     const char* name() const override { return "fragment"; }
+    const Lattice& lattice() const override { return *setup_.lattice; }
     const StateTextures* textures() const override { return &textures_; }
 
     void advance(int count) override {
@@ -42,10 +43,13 @@ public:
         step_ = state.step;
     }
 
+    Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
+    bool undoCut() override { return cuts_.undo(textures_); }
+    void forgetCuts() override { cuts_.forget(); }
+    Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
+
     std::vector<glm::dvec3> takeToolImpulses() override {
-        // From mass shares times lattice units a step to N s.
-        const double unit =
-            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
+        const double unit = impulseUnit(setup_);
         std::vector<glm::dvec3> impulses;
         std::vector<glm::vec4> texels(textures_.layout().texels());
         for (gpu::Texture2D& texture : impulses_) {
@@ -66,19 +70,10 @@ private:
     Status initialize() {
         SEROSA_ASSIGN(textures_, StateTextures::create(*setup_.lattice, setup_.fixed, options_.layout));
         const TextureLayout& layout = textures_.layout();
-        std::vector<gpu::ShaderDefine> defines = {
-            {"SRS_LAYOUT", std::to_string(layout.kind)},
-            {"SRS_GRID_NY", std::to_string(layout.gridStride.z)},
-            {"SRS_ROW_LOG2", std::to_string(std::countr_zero(unsigned(layout.width)))},
-            {"SRS_TOOLS", std::to_string(setup_.tools.size())},
-            {"SRS_EQUATION", options_.printedForm ? "2" : "1"}};
-        if (setup_.tissue.dampingTime > 0)
-            defines.push_back({"SRS_DAMPING", "1"});
-        if (options_.normals)
-            defines.push_back({"SRS_NORMALS", "1"});
-        if (options_.useTexelFetch)
-            defines.push_back({"SRS_TEXEL_FETCH", "1"});
         const gpu::ShaderLibrary library;
+        std::vector<gpu::ShaderDefine> defines = kernelDefines(setup_, layout, options_);
+        if (setup_.tissue.volumetric())
+            defines.push_back({"SRS_VOLUME", "1"});
         SEROSA_ASSIGN(stepProgram_,
                       gpu::Program::create(library, {"pass.vert", "solver_step.frag"}, defines));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"pass.vert", "grasp.frag"}));
@@ -98,13 +93,11 @@ private:
             graspTargets_[i].attach(GL_COLOR_ATTACHMENT0, textures_.nodeInfo_[i]);
             graspTargets_[i].setDrawBuffers(1);
         }
+        if (setup_.tissue.volumetric())
+            SEROSA_TRY(initializeVolume(library, defines));
         emptyVertices_ = gpu::VertexArray("no attributes");
 
-        const double h = setup_.lattice->spacing, dt = setup_.timeStep;
-        stepProgram_.set("u_acceleration", float(dt * dt * setup_.tissue.stiffnessOverMass(h)));
-        stepProgram_.set("u_drag", float(1 - setup_.tissue.airDrag * dt));
-        stepProgram_.set("u_gravity", glm::vec3(setup_.gravity * (dt * dt / h)));
-        stepProgram_.set("u_damping", float(setup_.tissue.dampingTime / dt));
+        setKernelUniforms(stepProgram_, setup_);
         if (layout.kind == SRS_LAYOUT_ROWS) {
             stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
             stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
@@ -112,9 +105,47 @@ private:
         return {};
     }
 
+    /// The pass of the volumetric term (sim/volume_term.h), made only where the tissue asks for it.
+    Status initializeVolume(const gpu::ShaderLibrary& library,
+                            const std::vector<gpu::ShaderDefine>& defines) {
+        const TextureLayout& layout = textures_.layout();
+        SEROSA_ASSIGN(volumeProgram_,
+                      gpu::Program::create(library, {"pass.vert", "volume_cells.frag"}, defines));
+        volumeTarget_ = gpu::Framebuffer("volumetric term");
+        const char* samplers[] = {"t_volumeX", "t_volumeY", "t_volumeZ"};
+        for (std::size_t column = 0; column < 3; ++column) {
+            volume_[column] = gpu::Texture2D("volumetric term", GL_RGBA32F, layout.width, layout.height);
+            volumeTarget_.attach(GLenum(GL_COLOR_ATTACHMENT0 + column), volume_[column]);
+            stepProgram_.texture(samplers[column], volume_[column]);
+        }
+        volumeTarget_.setDrawBuffers(3);
+        volumeProgram_.set("u_bulk", float(setup_.tissue.bulkShare()));
+        volumeProgram_.set("u_recovery", float(setup_.tissue.recovery ? SRS_RECOVERY : 0));
+        if (layout.kind == SRS_LAYOUT_ROWS) {
+            volumeProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
+            volumeProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
+        }
+        return {};
+    }
+
+    void takeVolumePass() {
+        volumeProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
+        volumeProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
+        volumeTarget_.bind(textures_.layout().width, textures_.layout().height);
+        volumeProgram_.use();
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+        // The first tool's impulse blends into attachment 2, this pass's must not.
+        glDisablei(GL_BLEND, 2);
+        gpu::drawFullScreen(emptyVertices_);
+        if (!setup_.tools.empty())
+            glEnablei(GL_BLEND, 2);
+    }
+
     void takeStep() {
         if (!setup_.tools.empty())
             setTools();
+        if (setup_.tissue.volumetric())
+            takeVolumePass();
         const int from = textures_.current_, to = 1 - from;
         if (options_.useTexelFetch) {
             stepProgram_.texture("t_positions", textures_.positions_[from]);
@@ -136,24 +167,17 @@ private:
 
     void setTools() {
         const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-        std::array<glm::vec4, SRS_MAX_TOOLS> spheres{}, moves{};
-        for (std::size_t i = 0; i < tools.size(); ++i) {
-            spheres[i] = glm::vec4(glm::vec3(tools[i].to), float(tools[i].radius));
-            moves[i] = glm::vec4(glm::vec3(tools[i].to - tools[i].from), float(tools[i].mode));
+        setToolUniforms(stepProgram_, tools);
+        for (std::size_t i = 0; i < tools.size(); ++i)
             if (tools[i].closes || tools[i].opens)
                 updateHeld(unsigned(i + 1), tools[i]);
-        }
-        stepProgram_.set("u_toolSpheres", std::span<const glm::vec4>(spheres));
-        stepProgram_.set("u_toolMoves", std::span<const glm::vec4>(moves));
     }
 
     void updateHeld(unsigned holder, const ToolMotion& tool) {
         const int to = 1 - textures_.currentInfo_;
         graspProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
         graspProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
-        graspProgram_.set("u_sphere", glm::vec4(glm::vec3(tool.from), float(tool.radius)));
-        graspProgram_.set("u_holder", holder);
-        graspProgram_.set("u_closes", tool.closes ? 1 : 0);
+        setGraspUniforms(graspProgram_, holder, tool);
         graspTargets_[std::size_t(to)].bind(textures_.layout().width, textures_.layout().height);
         graspProgram_.use();
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
@@ -164,9 +188,12 @@ private:
     SolverSetup setup_;
     FragmentOptions options_;
     StateTextures textures_;
-    gpu::Program stepProgram_, graspProgram_;
+    gpu::Program stepProgram_, graspProgram_, volumeProgram_;
     gpu::Framebuffer stepTargets_[2], graspTargets_[2];
+    mutable CutPass cuts_;                 // programs made when first needed
     std::vector<gpu::Texture2D> impulses_; // one a tool
+    gpu::Texture2D volume_[3];             // a cell's fill p cof(F), column by column
+    gpu::Framebuffer volumeTarget_;
     gpu::VertexArray emptyVertices_;
     std::int64_t step_ = 0;
 };

@@ -24,6 +24,8 @@ std::string LatticeState::hash() const {
     add(increments);
     XXH3_128bits_update(hasher, normals.data(), normals.size() * sizeof normals[0]);
     XXH3_128bits_update(hasher, heldBy.data(), heldBy.size() * sizeof heldBy[0]);
+    if (!connections.empty())
+        XXH3_128bits_update(hasher, connections.data(), connections.size() * sizeof connections[0]);
     const XXH128_hash_t digest = XXH3_128bits_digest(hasher);
     XXH3_freeState(hasher);
     char text[40];

@@ -15,6 +15,8 @@ struct LatticeState {
     std::vector<glm::dvec3> increments; // x_n - x_(n-1), lattice units
     std::vector<std::uint32_t> normals; // packed (sim/packed_normal.h)
     std::vector<std::uint32_t> heldBy;  // 0 free, 1 + tool index
+    // 18 bits a node, as Lattice::connections: what cuts left of them. Empty: nothing was ever cut.
+    std::vector<std::uint32_t> connections;
 
     /// 128-bit hash (XXH3, hex) of the float32 values: equal for byte-equal snapshots of the GPU state.
     std::string hash() const;

@@ -4,6 +4,7 @@
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
 #include "sim/tool_motion.h"
+#include "sim/volume_term.h"
 
 #include <cmath>
 
@@ -21,18 +22,14 @@ public:
         neighbours_.resize(count * SRS_NEIGHBOURS);
         weights_.resize(count * SRS_NEIGHBOURS);
         mass_.resize(count);
-        for (std::size_t node = 0; node < count; ++node) {
+        for (std::size_t node = 0; node < count; ++node)
             mass_[node] = lattice.massShare(node);
-            for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
-                const std::size_t slot = node * SRS_NEIGHBOURS + std::size_t(d);
-                neighbours_[slot] = lattice.neighbour(node, d);
-                weights_[slot] = lattice.springWeight(node, d);
-            }
-        }
+        connect(lattice.connections);
         impulses_.assign(setup_.tools.size(), glm::dvec3(0));
     }
 
     const char* name() const override { return "reference"; }
+    const Lattice& lattice() const override { return *setup_.lattice; }
 
     void advance(int count) override {
         for (int i = 0; i < count; ++i)
@@ -43,6 +40,11 @@ public:
 
     void setState(const LatticeState& state) override {
         SEROSA_CHECK(state.positions.size() == state_.positions.size(), "a state of this lattice");
+        const bool cut = !state.connections.empty();
+        SEROSA_CHECK(!cut || state.connections.size() == state.positions.size(),
+                     "connections of this lattice");
+        if (cut || !state_.connections.empty())
+            connect(cut ? state.connections : setup_.lattice->connections);
         state_ = state;
     }
 
@@ -58,6 +60,19 @@ public:
     }
 
 private:
+    /// Springs and whole cells by what cuts left of the lattice's connections.
+    void connect(const std::vector<std::uint32_t>& connections) {
+        const Lattice& lattice = *setup_.lattice;
+        for (std::size_t node = 0; node < connections.size(); ++node)
+            for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
+                const std::size_t slot = node * SRS_NEIGHBOURS + std::size_t(d);
+                const bool connected = (connections[node] >> d) & 1u;
+                neighbours_[slot] = connected ? lattice.neighbour(node, d) : -1;
+                weights_[slot] = connected ? lattice.springWeight(node, d) : 0;
+            }
+        volume_ = VolumeTerm(lattice, setup_.tissue, connections);
+    }
+
     void step() {
         const Lattice& lattice = *setup_.lattice;
         const double dt = setup_.timeStep;
@@ -71,8 +86,10 @@ private:
         const std::vector<glm::dvec3>& x = state_.positions;
         const std::vector<glm::dvec3>& u = state_.increments;
         LatticeState next = state_;
+        pressure_.assign(x.size(), glm::dvec3(0));
+        volume_.addForces(x, pressure_);
         for (std::size_t node = 0; node < x.size(); ++node) {
-            glm::dvec3 force(0), normal(0);
+            glm::dvec3 force = pressure_[node], normal(0);
             for (std::size_t slot = node * SRS_NEIGHBOURS; slot < (node + 1) * SRS_NEIGHBOURS; ++slot) {
                 if (weights_[slot] <= 0)
                     continue;
@@ -110,7 +127,9 @@ private:
     std::vector<std::int64_t> neighbours_; // 18 a node, -1 where none
     std::vector<double> weights_;          // 18 a node, 0 where none
     std::vector<double> mass_;             // share of a full node's
-    std::vector<glm::dvec3> impulses_;     // mass shares times lattice units a step
+    VolumeTerm volume_;
+    std::vector<glm::dvec3> pressure_; // the volumetric term's forces, k h
+    std::vector<glm::dvec3> impulses_; // mass shares times lattice units a step
 };
 
 } // namespace
@@ -134,7 +153,11 @@ LatticeState startState(const SolverSetup& setup) {
 Energies energies(const SolverSetup& setup, const LatticeState& state) {
     const Lattice& lattice = *setup.lattice;
     const double h = lattice.spacing, k = setup.tissue.springConstant(h), m = setup.tissue.nodeMass(h);
+    const bool cut = !state.connections.empty();
+    const std::vector<std::uint32_t>& connections = cut ? state.connections : lattice.connections;
     Energies sum;
+    if (setup.tissue.volumetric())
+        sum.elastic = k * h * h * VolumeTerm(lattice, setup.tissue, connections).energy(state.positions);
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
         const double mass = m * lattice.massShare(node);
         const glm::dvec3 velocity = state.increments[node] * (h / setup.timeStep);
@@ -143,7 +166,7 @@ Energies energies(const SolverSetup& setup, const LatticeState& state) {
             mass * glm::dot(setup.gravity, h * (state.positions[node] - lattice.restPosition(node)));
         for (int d = 0; d < SRS_NEIGHBOURS; d += 2) {
             const std::int64_t other = lattice.neighbour(node, d);
-            if (other < 0)
+            if (other < 0 || !((connections[node] >> d) & 1u))
                 continue;
             const double rest = d < 6 ? 1.0 : std::sqrt(2.0);
             const double stretch =

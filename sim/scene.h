@@ -4,6 +4,7 @@
 // belongs are errors.
 
 #include "base/result.h"
+#include "sim/cut_motion.h"
 #include "sim/material.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
@@ -48,7 +49,8 @@ struct Organ {
     Tissue tissue;
     std::vector<FixedRegion> fixed;
     double fixedLowestShare =
-        0; // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
+        0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
+    double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
 };
 
@@ -101,6 +103,7 @@ struct Scene {
     glm::dvec3 gravity{0, -9.81, 0}; // m/s2
     std::vector<Organ> organs;       // one to kMostOrgans; they do not touch each other yet
     std::vector<Tool> tools;
+    std::vector<Cut> cuts; // of every organ
     Camera camera;
     Light light;
     Look look;

@@ -48,6 +48,7 @@ std::vector<SceneKey> makeKeys() {
         plain("", "organ", Kind::tables, kAny, nullptr,
               "the organs, one to eight; they move on their own and do not touch each other yet"),
         plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most four"),
+        plain("", "cut", Kind::tables, kAny, "", "the scripted cuts; they cut every organ that they meet"),
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
         plain("", "look", Kind::table, kAny, "", "what is drawn"),
@@ -66,19 +67,26 @@ std::vector<SceneKey> makeKeys() {
         plain("organ", "nodes", Kind::integer, {8, 1e9}, "20000",
               "lattice nodes aimed at; not beside `spacing`"),
         quantity("organ", "spacing", Dim::length, kPositive, "", "lattice spacing, instead of `nodes`"),
+        plain(
+            "organ", "tear_strain", Kind::number, kPositive, "",
+            "springs longer than (1 + this) times their rest length tear, frame by frame; not beside a pose"),
         plain("organ", "tissue", Kind::table, kAny, "", "what it is made of"),
         plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
         plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
 
         quantity("organ.tissue", "young", Dim::pressure, {0, 1e12, true}, "\"5 kPa\"", "Young's modulus"),
         plain("organ.tissue", "poisson", Kind::number, {-1, 0.5}, "0.25",
-              "Poisson's ratio; this version takes 0.25 only, which the springs give by themselves"),
+              "Poisson's ratio, 0.25 to 0.495; above 0.25 a step costs more and is shorter (0.49: a "
+              "quarter)"),
         quantity("organ.tissue", "density", Dim::density, {0, 1e6, true}, "\"1000 kg/m3\"",
                  "mass of a volume"),
         quantity("organ.tissue", "damping_time", Dim::time, kNotNegative, "\"0.5 ms\"",
                  "damping along springs: c = damping_time * k"),
         quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
                  "drag on a node's velocity"),
+        plain("organ.tissue", "recovery", Kind::boolean, kAny, "false",
+              "cells that are pressed below 40% of their volume, or turned inside out, push back: a "
+              "deep push leaves no folds behind; costs a pass"),
 
         word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region"),
         word("organ.fixed", "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),
@@ -106,6 +114,19 @@ std::vector<SceneKey> makeKeys() {
               "poses with strictly increasing times; grasp needs two"),
         quantity("tool.keys", "t", Dim::time, kNotNegative, nullptr, "time of the pose"),
         quantity("tool.keys", "at", Dim::length, kAny, nullptr, "centre of the sphere then", Kind::quantity3),
+
+        word(
+            "cut", "kind", {"blade", "cauterize"}, "\"blade\"",
+            "blade: an edge that cuts what it sweeps over from key to key; cauterize: burns a ball of tissue "
+            "away at each key"),
+        quantity("cut", "radius", Dim::length, kPositive, "\"3 mm\"", "cauterize: radius of the ball"),
+        plain("cut", "keys", Kind::tables, kAny, nullptr,
+              "poses with strictly increasing times; a blade needs two"),
+        quantity("cut.keys", "t", Dim::time, kNotNegative, nullptr, "time of the pose"),
+        quantity("cut.keys", "at", Dim::length, kAny, nullptr,
+                 "one end of the blade's edge then; cauterize: the ball's centre", Kind::quantity3),
+        quantity("cut.keys", "end", Dim::length, kAny, "", "blade: the other end of its edge",
+                 Kind::quantity3),
 
         word("camera", "projection", {"perspective", "orthographic"}, "\"perspective\"", "kind of camera"),
         quantity("camera", "eye", Dim::length, kAny, "",
@@ -159,9 +180,11 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const bool repeated = table == "organ" || table == "organ.fixed" || table == "tool";
+    const bool repeated = table == "organ" || table == "organ.fixed" || table == "tool" || table == "cut";
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
+    if (table == "cut.keys")
+        return "`keys` of `[[cut]]`, each `{ t = ..., at = ..., end = ... }`";
     return repeated ? "`[[" + table + "]]`" : "`[" + table + "]`";
 }
 

@@ -60,14 +60,18 @@ Status readTissue(const SceneTable& table, Tissue& tissue) {
     SEROSA_TRY(table.checkKeys());
     SEROSA_TRY(table.read("young", tissue.young));
     SEROSA_TRY(table.read("poisson", tissue.poisson));
-    if (tissue.poisson != 0.25)
-        return table.errorAt(
-            "poisson", "is " + formatNumber(tissue.poisson) +
-                           ", but this version takes 0.25 only: the springs alone give it, and other values "
-                           "need a volumetric term that is not there yet");
+    if (tissue.poisson < 0.25)
+        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
+                                            ", at least 0.25 is possible: the springs give 0.25, and the "
+                                            "volumetric term can only raise it");
+    if (tissue.poisson > 0.495)
+        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
+                                            ", at most 0.495 is possible: at 0.5 nothing can be pressed "
+                                            "together, and the time step vanishes");
     SEROSA_TRY(table.read("density", tissue.density));
     SEROSA_TRY(table.read("damping_time", tissue.dampingTime));
     SEROSA_TRY(table.read("air_drag", tissue.airDrag));
+    SEROSA_TRY(table.read("recovery", tissue.recovery));
     return {};
 }
 
@@ -145,6 +149,9 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     else
         SEROSA_TRY(table.read("nodes", organ.nodes));
 
+    SEROSA_TRY(table.read("tear_strain", organ.tearStrain));
+    if (table.has("tear_strain") && table.has("pose"))
+        return table.errorAt("tear_strain", "has no effect beside 'pose': keep one of the two");
     SEROSA_ASSIGN(const toml::table* tissue, table.table("tissue"));
     SEROSA_TRY(readTissue({source, "organ.tissue", path + ".tissue", tissue}, organ.tissue));
     SEROSA_ASSIGN(const auto regions, table.tables("fixed"));
@@ -185,6 +192,36 @@ Status readTool(const SceneSource& source, const toml::table& content, std::size
         if (!tool.keys.empty() && key.time <= tool.keys.back().time)
             return keyTable.errorAt("t", "is not after the key before it: times must increase");
         tool.keys.push_back(key);
+    }
+    return {};
+}
+
+Status readCut(const SceneSource& source, const toml::table& content, std::size_t index, Cut& cut) {
+    const std::string path = "cut[" + std::to_string(index) + "]";
+    const SceneTable table(source, "cut", path, &content);
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.readWord("kind", cut.kind));
+    const bool blade = cut.kind == StrokeKind::blade;
+    if (blade && table.has("radius"))
+        return table.errorAt("radius", "has no effect on a blade: remove it");
+    SEROSA_TRY(table.read("radius", cut.radius));
+    SEROSA_ASSIGN(const auto keys, table.tables("keys"));
+    if (keys.size() < (blade ? 2u : 1u))
+        return table.errorAt("keys", blade ? "a blade needs at least two: where it begins and where it ends"
+                                           : "needs at least one");
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const SceneTable keyTable(source, "cut.keys", path + ".keys[" + std::to_string(i) + "]", keys[i]);
+        SEROSA_TRY(keyTable.checkKeys());
+        CutKey key;
+        SEROSA_TRY(keyTable.read("t", key.time));
+        SEROSA_TRY(keyTable.read("at", key.at));
+        SEROSA_TRY(keyTable.read("end", key.end));
+        if (blade != keyTable.has("end"))
+            return keyTable.errorAt("end", blade ? "is missing: a blade's edge has two ends"
+                                                 : "has no effect on cauterizing: remove it");
+        if (!cut.keys.empty() && key.time <= cut.keys.back().time)
+            return keyTable.errorAt("t", "is not after the key before it: times must increase");
+        cut.keys.push_back(key);
     }
     return {};
 }
@@ -303,6 +340,15 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
         SEROSA_TRY(readTool(source, *tools[i], i, tool));
         scene.tools.push_back(std::move(tool));
     }
+    SEROSA_ASSIGN(const auto cuts, top.tables("cut"));
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+        Cut cut;
+        SEROSA_TRY(readCut(source, *cuts[i], i, cut));
+        scene.cuts.push_back(std::move(cut));
+    }
+    if (!cuts.empty() && std::all_of(scene.organs.begin(), scene.organs.end(),
+                                     [](const Organ& organ) { return organ.pose.has_value(); }))
+        return top.errorAt("cut", "has no effect: every organ has a pose, and none is simulated");
     SEROSA_ASSIGN(const toml::table* camera, top.table("camera"));
     SEROSA_TRY(readCamera({source, "camera", "camera", camera}, scene.camera));
     SEROSA_ASSIGN(const toml::table* light, top.table("light"));

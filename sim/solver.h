@@ -2,6 +2,16 @@
 // One interface for all solvers of the spring lattice: `reference` (CPU, double: the oracle) and `fragment`
 // (MS05's way).
 //
+// Cells: a material with Poisson's ratio above 1/4, or with recovery (Tissue::volumetric()), adds the
+// volumetric term of sim/volume_term.h. A solver that implements it
+//   1. takes, for each cell whose 24 connections are all left (SRS_IN_CELL_c at its corner c), from the
+//      positions at the start of the step F, the mean deformation gradient of its 8 corners, cof F, J, and
+//      P = f p(J, cof F) cof F in units of k/h;
+//   2. adds -P g_i, g_i = (+-1, +-1, +-1)/4, to the force of each of its 8 corners before the step below: all
+//      take the same P, so that the forces sum to nothing.
+// VolumeTerm::addForces is the oracle, shaders/volume_cells.frag with solver_volume.glsl (SRS_VOLUME) the
+// GPU's way. A solver without it refuses such tissue (supportsTissue).
+//
 // A step, for a node of mass share m = sum(f)/8 and spring weights w (sim/lattice.h), in lattice units:
 //   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full
 //   constant)
@@ -9,6 +19,7 @@
 //   u' = (1 - airDrag dt) u + dt^2 (k/(rho h^3) F/m + g/h)
 //   x' = x + u';  then tools: x' is moved out of a pushing sphere or with a grasping one, and u' = x' - x.
 
+#include "sim/blade.h"
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
 #include "sim/material.h"
@@ -47,6 +58,23 @@ public:
     virtual std::vector<glm::dvec3> takeToolImpulses() = 0;
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
+
+    // Cuts (sim/blade.h) clear connections at the positions as they are; nothing is resized. The defaults
+    // work for every solver through state() and setState(); solvers on the GPU cut in a pass, with no
+    // readback (sim/cut_pass.h).
+
+    /// Errors: of the driver, where the pass is made at the first cut.
+    virtual Status cut(const Stroke& stroke);
+    /// Gives back what the last stroke (with the parts that continue it) cut. False: none is left to undo.
+    virtual bool undoCut();
+    /// Strokes so far can no longer be undone: after a state from elsewhere was set.
+    virtual void forgetCuts();
+    /// Labels of the pieces (sim/pieces.h), one a node; reads back. Errors: as cut.
+    virtual Result<std::vector<std::uint32_t>> pieces() const;
+    virtual const Lattice& lattice() const = 0;
+
+private:
+    std::vector<std::vector<std::uint32_t>> cutLayers_; // bits that each stroke cleared, one word a node
 };
 
 /// Fails of energy bookkeeping: all in joules, from a state.
@@ -65,21 +93,42 @@ LatticeState startState(const SolverSetup& setup);
 
 std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
 
-struct FragmentOptions {
+/// Of shaders/solver_kernel.glsl, whatever runs it.
+struct KernelOptions {
     int layout = -1;            // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
     bool normals = true;        // write eq. 3 into alpha (benchmarks switch it off)
     bool printedForm = true;    // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
     bool useTexelFetch = false; // texelFetch instead of imageLoad
 };
+
+struct FragmentOptions : KernelOptions {};
 /// Needs a current GL context. Errors: the lattice does not fit the context's textures (says the limit),
 /// shader errors.
 Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup,
                                                    const FragmentOptions& options = {});
 
+/// One line where the named solver cannot do what the tissue asks for; ok otherwise. `cpu` and `compute` have
+/// no volumetric term yet.
+Status supportsTissue(const std::string& solver, const Tissue& tissue);
+
+/// Work groups by layout, as measured (docs/performance.md); along x, y(, z).
+struct ComputeOptions : KernelOptions {
+    glm::ivec2 gridGroup{16, 8};
+    glm::ivec2 rowsGroup{64, 1};
+    bool tiles = false; // grid layout: a group's nodes and their border in shared memory
+    glm::ivec3 tileGroup{8, 4, 4};
+};
+/// The same kernel, state and bytes as the fragment solver's, in compute passes. Errors: as
+/// makeFragmentSolver.
+Result<std::unique_ptr<Solver>> makeComputeSolver(const SolverSetup& setup,
+                                                  const ComputeOptions& options = {});
+
 /// How the time step was computed, for the summary.
 struct StableStep {
-    double stiffestRate2 = 0; // omega^2 in 1/s2: Lanczos iteration on the rest lattice, never below 12 k/m
-    double formulaRate2 = 0;  // 12 k/m
+    // omega^2 in 1/s2: Lanczos iteration on the rest lattice with its volumetric term
+    double stiffestRate2 = 0; // never below formulaRate2
+    double springRate2 = 0;   // of the springs alone, which are what is damped; never below 12 k/m
+    double formulaRate2 = 0;  // of the endless lattice: (12 + 4 bulkShare) k/m
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used
     int stepsPerFrame = 0;

@@ -1,7 +1,14 @@
 // The largest stable explicit step (ARCHITECTURE.md, stability). The stiffest rate omega^2 of M^-1 K on the
-// rest lattice comes from Lanczos (power) iteration. No cell assembly exceeds its stiffest lone cell (20
-// k/m), the endless lattice has 12 k/m: the estimate is kept between the two.
+// rest lattice comes from Lanczos (power) iteration. No cell assembly exceeds its stiffest lone cell, the
+// endless lattice has less: the estimate is kept between the two.
+//
+// In units of k/m, with b the volumetric term's share (sim/volume_term.h): a lone cell breathes with
+//   springs: 12 edges f/4 stretch by 1, 12 diagonals f/2 by sqrt 2, sum w e^2 = 15 f; mass 8 f/8 * 3/4: 20;
+//   volume:  f b (div u)^2 = 9 f b over the same mass: 12 b.
+// In the endless lattice the plane wave of length 2 h along an axis has 12 from the springs and 4 b: the
+// divergence of each cell is 2 in it.
 #include "sim/solver.h"
+#include "sim/volume_term.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -11,7 +18,8 @@ namespace serosa::sim {
 
 namespace {
 
-constexpr double kEndlessLattice = 12, kLoneCell = 20; // omega^2 / (k/m)
+constexpr double kEndlessLattice = 12, kLoneCell = 20;        // omega^2 / (k/m), springs
+constexpr double kEndlessLatticeBulk = 4, kLoneCellBulk = 12; // more for each unit of bulkShare()
 // Of the bound. Stretch and contact raise omega^2 beyond the rest lattice's. And Verlet with springs that
 // turn is unstable before the linear bound: at omega dt = sqrt(3) the stiffest modes resonate 3:1 with the
 // step, at sqrt(2) 4:1; an undamped ball with random velocities blows up at 0.85 of the bound. 0.7 keeps
@@ -44,8 +52,9 @@ SpringList collectSprings(const Lattice& lattice) {
 }
 
 /// y = M^-1/2 K M^-1/2 x, in units of k/m.
-void applySymmetric(const SpringList& springs, const std::vector<double>& inverseRootMass,
-                    const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) {
+void applySymmetric(const SpringList& springs, const VolumeTerm& volume,
+                    const std::vector<double>& inverseRootMass, const std::vector<glm::dvec3>& x,
+                    std::vector<glm::dvec3>& y) {
     std::fill(y.begin(), y.end(), glm::dvec3(0));
     for (std::size_t s = 0; s < springs.first.size(); ++s) {
         const std::uint32_t a = springs.first[s], b = springs.second[s];
@@ -55,6 +64,14 @@ void applySymmetric(const SpringList& springs, const std::vector<double>& invers
         y[a] += inverseRootMass[a] * pull * n;
         y[b] -= inverseRootMass[b] * pull * n;
     }
+    if (volume.empty())
+        return;
+    std::vector<glm::dvec3> scaled(x.size()), forces(x.size(), glm::dvec3(0));
+    for (std::size_t node = 0; node < x.size(); ++node)
+        scaled[node] = inverseRootMass[node] * x[node];
+    volume.addLinear(scaled, forces);
+    for (std::size_t node = 0; node < x.size(); ++node)
+        y[node] += inverseRootMass[node] * forces[node];
 }
 
 double dot(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
@@ -67,8 +84,7 @@ double dot(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
 /// Largest eigenvalue of M^-1 K in units of k/m, from below: Lanczos iteration, which is the power iteration
 /// with the best combination of all its powers. Plain powers miss the stiff modes of a few barely filled
 /// cells for hundreds of iterations. Lost orthogonality only repeats eigenvalues that have converged.
-double stiffestShare(const Lattice& lattice) {
-    const SpringList springs = collectSprings(lattice);
+double stiffestShare(const Lattice& lattice, const SpringList& springs, const VolumeTerm& volume) {
     const std::size_t count = lattice.nodeCount();
     std::vector<double> inverseRootMass(count);
     std::vector<glm::dvec3> before(count, glm::dvec3(0)), now(count), next(count);
@@ -85,7 +101,7 @@ double stiffestShare(const Lattice& lattice) {
         v /= length;
     std::vector<double> diagonal, offDiagonal;
     while (diagonal.size() < kIterations) {
-        applySymmetric(springs, inverseRootMass, now, next);
+        applySymmetric(springs, volume, inverseRootMass, now, next);
         const double alpha = dot(now, next), beta = offDiagonal.empty() ? 0 : offDiagonal.back();
         for (std::size_t i = 0; i < count; ++i)
             next[i] -= alpha * now[i] + beta * before[i];
@@ -111,13 +127,24 @@ double stiffestShare(const Lattice& lattice) {
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime) {
     StableStep step;
     const double perShare = tissue.stiffnessOverMass(lattice.spacing);
-    step.formulaRate2 = kEndlessLattice * perShare;
-    step.stiffestRate2 =
-        std::clamp(kIterationSlack * stiffestShare(lattice), kEndlessLattice, kLoneCell) * perShare;
-    // Increments lag half a step, so damping tau omega^2 lowers the bound: dt^2 omega^2 + 2 dt tau omega^2
-    // < 4.
-    const double tau = tissue.dampingTime;
-    step.bound = std::sqrt(tau * tau + 4 / step.stiffestRate2) - tau;
+    const double bulk = tissue.bulkShare();
+    const SpringList springs = collectSprings(lattice);
+    step.springRate2 =
+        std::clamp(kIterationSlack * stiffestShare(lattice, springs, {}), kEndlessLattice, kLoneCell) *
+        perShare;
+    step.formulaRate2 = (kEndlessLattice + kEndlessLatticeBulk * bulk) * perShare;
+    step.stiffestRate2 = step.springRate2;
+    if (bulk > 0)
+        step.stiffestRate2 =
+            std::clamp(kIterationSlack *
+                           stiffestShare(lattice, springs, VolumeTerm(lattice, tissue, lattice.connections)),
+                       kEndlessLattice + kEndlessLatticeBulk * bulk, kLoneCell + kLoneCellBulk * bulk) *
+            perShare;
+    // Increments lag half a step, so damping tau of the springs' share lowers the bound: dt^2 omega^2 +
+    // 2 dt tau omega_s^2 < 4. The stiffest modes of both are nearly the same (see above), so the sum of the
+    // two largest rates is hardly more than the largest of the sum.
+    const double damped = tissue.dampingTime * step.springRate2 / step.stiffestRate2;
+    step.bound = std::sqrt(damped * damped + 4 / step.stiffestRate2) - damped;
     step.margin = kMargin;
     step.stepsPerFrame = int(std::ceil(frameTime / (kMargin * step.bound)));
     step.timeStep = frameTime / step.stepsPerFrame;

@@ -66,6 +66,8 @@ std::size_t StateTextures::linearTexel(std::size_t node) const {
 
 void StateTextures::upload(const LatticeState& state) {
     SEROSA_CHECK(state.positions.size() == layout_.texelOfNode.size(), "a state of this lattice");
+    SEROSA_CHECK(state.connections.empty() || state.connections.size() == state.positions.size(),
+                 "connections of every node or of none");
     std::vector<glm::vec4> positions(layout_.texels(), glm::vec4(0)),
         increments(layout_.texels(), glm::vec4(0));
     std::vector<std::array<std::uint32_t, 4>> info = info_;
@@ -74,6 +76,8 @@ void StateTextures::upload(const LatticeState& state) {
         positions[texel] =
             glm::vec4(glm::vec3(state.positions[node]), std::bit_cast<float>(state.normals[node]));
         increments[texel] = glm::vec4(glm::vec3(state.increments[node]), 0);
+        if (!state.connections.empty())
+            info[texel][0] = (info[texel][0] & ~SRS_CONNECTION_MASK) | state.connections[node];
         info[texel][0] |= (state.heldBy[node] & SRS_HELD_MASK) << SRS_HELD_SHIFT;
     }
     positions_[current_].upload(positions.data());
@@ -89,13 +93,18 @@ LatticeState StateTextures::download(std::int64_t step) const {
     nodeInfo_[currentInfo_].download(info.data(), info.size() * sizeof info[0]);
     LatticeState state;
     state.step = step;
+    bool cut = false;
     for (std::size_t node = 0; node < layout_.texelOfNode.size(); ++node) {
         const std::size_t texel = linearTexel(node);
         state.positions.emplace_back(positions[texel]);
         state.increments.emplace_back(increments[texel]);
         state.normals.push_back(std::bit_cast<std::uint32_t>(positions[texel].w));
         state.heldBy.push_back((info[texel][0] >> SRS_HELD_SHIFT) & SRS_HELD_MASK);
+        state.connections.push_back(info[texel][0] & SRS_CONNECTION_MASK);
+        cut = cut || state.connections.back() != (info_[texel][0] & SRS_CONNECTION_MASK);
     }
+    if (!cut)
+        state.connections.clear();
     return state;
 }
 

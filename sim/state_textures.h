@@ -24,7 +24,7 @@ public:
     const gpu::Texture2D& increments() const { return increments_[current_]; }
     const gpu::Texture2D& nodeInfo() const { return nodeInfo_[currentInfo_]; }
 
-    /// Replaces positions, increments, normals and held flags.
+    /// Replaces positions, increments, normals, held flags and connections.
     void upload(const LatticeState& state);
     /// Reads all back (stalls).
     LatticeState download(std::int64_t step) const;
@@ -32,7 +32,9 @@ public:
     std::size_t bytes() const;
 
 private:
+    friend class CutPass;
     friend class FragmentSolver;
+    friend class ComputeSolver;
     StateTextures() = default;
     std::size_t linearTexel(std::size_t node) const;
 

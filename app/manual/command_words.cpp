@@ -3,6 +3,7 @@
 // what the program says about a wrong word.
 
 #include "app/manual/command_tree.h"
+#include "app/solver_choice.h"
 #include "app/verify.h"
 #include "models/phantom.h"
 #include "sim/scene_keys.h"
@@ -22,13 +23,15 @@ const std::map<std::string, Words>& table() {
             phantoms.push_back(info.name);
         for (const VerifyGroup& group : verifyGroups())
             groups.push_back(group.name);
+        Words solvers = solverNames();
+        solvers.push_back("picked");
         return std::map<std::string, Words>{
             {"--gl", {"auto", "egl", "egl-device", "osmesa"}},
             {"--inject", {"stiffness=", "drop-spring", "stale-normal"}},
             {"--layout", {"auto", "grid", "rows"}},
             {"--length-unit", {"mm", "cm", "m", "um", "in"}},
             {"--mapping", sim::findSceneKey("look", "mapping")->words},
-            {"--solver", {"fragment", "reference"}},
+            {"--solver", solvers},
             {"serosa phantom name", phantoms},
             {"serosa verify groups", groups},
         };

@@ -72,16 +72,17 @@ TEST(GlVerify, StaleNormalFailsTheMappingGroup) {
     EXPECT_NE(page.all("div", "verdict").at(0)->text.find("--inject stale-normal"), std::string::npos);
 }
 
-TEST(GlVerify, SpringFaultsFailTheSolverGroup) {
+TEST(GlVerify, SpringFaultsFailTheGroupsThatOwnThem) {
     if (!isLongRun())
         GTEST_SKIP() << "runs on EGL, without sanitizers";
-    const auto verifyWith = [](const char* fault) {
+    const auto verifyWith = [](const char* group, const char* fault) {
         const TestFolder folder;
-        return runSerosa(folder.path(), {"verify", "solver", "--gl", glChoice(), "--inject", fault}).exitCode;
+        return runSerosa(folder.path(), {"verify", group, "--gl", glChoice(), "--inject", fault}).exitCode;
     };
-    auto dropped = std::async(std::launch::async, verifyWith, "drop-spring");
-    EXPECT_EQ(verifyWith("stiffness=1.05"), 1);
+    auto dropped = std::async(std::launch::async, verifyWith, "solver", "drop-spring");
+    EXPECT_EQ(verifyWith("solver", "stiffness=1.05"), 1);
     EXPECT_EQ(dropped.get(), 1);
+    EXPECT_EQ(verifyWith("materials", "stiffness=1.05"), 1);
 }
 
 } // namespace

@@ -216,6 +216,47 @@ TEST_F(GlProgram, LinkErrorsNameTheStages) {
     EXPECT_FALSE(Program::create(ShaderLibrary(folder.path()), {"a.shader"}).ok());
 }
 
+TEST_F(GlProgram, StorageBlocksBindAndWholeGroupsCoverTheItems) {
+    folder.write("sum.comp",
+                 "#version 450 core\nlayout(local_size_x = 8, local_size_y = 2) in;\n"
+                 "layout(std430) readonly buffer b_in { uint b_value[]; };\n"
+                 "layout(std430) buffer b_out { uint b_result[]; };\n"
+                 "uniform ivec3 u_items;\n"
+                 "void main() {\n"
+                 "    if (any(greaterThanEqual(ivec3(gl_GlobalInvocationID), u_items))) return;\n"
+                 "    uint at = gl_GlobalInvocationID.y * uint(u_items.x) + gl_GlobalInvocationID.x;\n"
+                 "    b_result[at] += 2u * b_value[at];\n}\n");
+    auto program = Program::create(ShaderLibrary(folder.path()), {"sum.comp"});
+    ASSERT_TRUE(program.ok()) << program.error().message;
+    EXPECT_EQ(program->groupSize(), glm::ivec3(8, 2, 1));
+    EXPECT_EQ(program->unsetInputs(), (std::vector<std::string>{"b_in", "b_out", "u_items"}));
+    const glm::ivec3 items(13, 3, 1); // no multiple of the group
+    std::vector<unsigned> values(39), results(39, 1);
+    for (unsigned i = 0; i < values.size(); ++i)
+        values[i] = i;
+    const Buffer in("in", std::span<const unsigned>(values)), out("out", std::span<const unsigned>(results));
+    program->set("u_items", items).buffer("b_in", in);
+    EXPECT_DEATH(program->dispatch(items), "input \"b_out\" was never set");
+    program->buffer("b_out", out);
+    program->dispatch(items);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    out.download(0, out.bytes(), results.data());
+    for (unsigned i = 0; i < results.size(); ++i)
+        EXPECT_EQ(results[i], 1 + 2 * i);
+    EXPECT_DEATH(program->dispatch({0, 1, 1}), "a dispatch of nothing");
+    EXPECT_DEATH(program->buffer("b_other", in), "has no input \"b_other\"");
+    {
+        const Buffer gone("gone", 4, nullptr);
+        program->buffer("b_in", gone);
+    }
+    EXPECT_DEATH(program->use(), "the buffer of input \"b_in\" is gone");
+    EXPECT_DEATH(program->buffer("b_in", Buffer()), "was given an empty buffer");
+    auto drawn = create("out vec4 o_value;\nvoid main() { o_value = vec4(1.0); }\n");
+    ASSERT_TRUE(drawn.ok());
+    EXPECT_EQ(drawn->groupSize(), glm::ivec3(0));
+    EXPECT_DEATH(drawn->dispatch(items), "has no compute stage");
+}
+
 TEST_F(GlProgram, ComputeAndTransformFeedbackRun) {
     folder.write(
         "a.comp",

@@ -169,3 +169,47 @@ TEST_F(GlFragmentSolver, refusesALayoutThatDoesNotFit) {
     ASSERT_FALSE(solver.ok());
     EXPECT_NE(solver.error().message.find("19881"), std::string::npos) << solver.error().message;
 }
+
+TEST_F(GlFragmentSolver, volumetricTermFollowsTheReference) {
+    for (const bool recovery : {false, true}) {
+        Case c;
+        c.setup.tissue.poisson = recovery ? 0.25 : 0.45;
+        c.setup.tissue.recovery = recovery;
+        c.setup.tools.resize(1); // a blending target beside the pass's own
+        c.setup.tools[0].radius = 0.008;
+        c.setup.tools[0].keys[1].at.y -= 0.006;
+        c.setup.timeStep = sim::stableStep(c.lattice, c.setup.tissue, 1.0 / 60).timeStep;
+        c.setup.tools[0].keys[1].time = 60 * c.setup.timeStep;
+        const auto reference = sim::makeReferenceSolver(c.setup);
+        reference->advance(70);
+        const LatticeState expected = reference->state();
+        SolverSetup plainSetup = c.setup;
+        plainSetup.tissue.poisson = 0.25;
+        plainSetup.tissue.recovery = false;
+        const auto plain = sim::makeReferenceSolver(plainSetup);
+        plain->advance(70);
+        EXPECT_GT(largestDifference(expected, plain->state()), 0.01) << "the term acts";
+        const glm::dvec3 impulse = reference->takeToolImpulses()[0];
+        for (const int layout : {SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS})
+            for (const bool fetch : {true, false}) {
+                FragmentOptions options;
+                options.layout = layout;
+                options.useTexelFetch = fetch;
+                const auto solver = sim::makeFragmentSolver(c.setup, options).value();
+                solver->advance(70);
+                EXPECT_LT(largestDifference(solver->state(), expected), 1e-3) << layout << fetch << recovery;
+                EXPECT_LT(glm::length(solver->takeToolImpulses()[0] - impulse), 2e-3 * glm::length(impulse));
+            }
+    }
+}
+
+TEST_F(GlFragmentSolver, nearlyIncompressibleTissueStaysExactlyAtRest) {
+    Case c;
+    c.setup.tissue.poisson = 0.49;
+    c.setup.tissue.recovery = true;
+    c.setup.gravity = {0, 0, 0};
+    c.setup.tools.clear();
+    const auto solver = sim::makeFragmentSolver(c.setup).value();
+    solver->advance(100);
+    EXPECT_EQ(largestDifference(solver->state(), sim::restState(c.lattice)), 0);
+}

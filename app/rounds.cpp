@@ -1,6 +1,6 @@
-// See bench/rounds.h.
+// See app/rounds.h.
 
-#include "bench/rounds.h"
+#include "app/rounds.h"
 
 #include "base/check.h"
 
@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace serosa::bench {
+namespace serosa::app {
 
 namespace {
 
@@ -62,4 +62,4 @@ const Rounds::Case& Rounds::find(const std::string& name) const {
     return *found;
 }
 
-} // namespace serosa::bench
+} // namespace serosa::app

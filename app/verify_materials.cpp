@@ -1,0 +1,226 @@
+// Group `materials`: what tissue of a given Young's modulus and Poisson's ratio does against the theory of
+// elasticity. Statics by a linear solution in double with the same springs and cells (tied to the reference
+// solver by its forces); large strains and float32 by the solvers themselves.
+#include "app/elastic_measures.h"
+#include "app/organ_setup.h"
+#include "app/verify.h"
+#include "models/phantom.h"
+#include "shaders/shared_constants.h"
+#include "sim/volume_term.h"
+
+#include <cmath>
+#include <random>
+
+namespace serosa::app {
+
+namespace {
+
+using sim::Lattice;
+using sim::LatticeState;
+using sim::SolverSetup;
+
+constexpr double kSpacing = 0.003; // m
+
+std::string nameOf(double poisson) {
+    return "nu " + shortNumber(poisson);
+}
+
+sim::Tissue tissueOf(const VerifyOptions& options, double poisson, double young = 5000) {
+    sim::Tissue tissue;
+    tissue.poisson = poisson;
+    tissue.young = young;
+    if (options.inject.fault == Fault::stiffness)
+        tissue.young *= options.inject.factor;
+    return tissue;
+}
+
+Result<Lattice> phantomLattice(const std::string& name, std::size_t faces, std::size_t nodes) {
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, models::makePhantom(name, faces));
+    for (glm::dvec3& p : mesh.positions)
+        p *= 1e-3;
+    sim::LatticeRequest request;
+    request.nodes = nodes;
+    return sim::buildLattice(mesh, request);
+}
+
+/// Tension, bending, torsion and pressure of beams and blocks 10 cells thick, aligned and in three random
+/// turns.
+void beams(const VerifyOptions& options, CheckList& checks) {
+    for (std::uint32_t turn = 0; turn < 4; ++turn) {
+        const std::string name = turn == 0 ? "aligned" : "turn " + std::to_string(turn);
+        const glm::dmat3 rotation = turn == 0 ? glm::dmat3(1) : randomRotation(turn);
+        const Beam beam = makeBeam(10, options.full ? 40 : 30, rotation, kSpacing);
+        const Beam cube = makeBeam(10, 10, rotation, kSpacing);
+        for (const double poisson : {0.25, 0.35, 0.45, 0.49}) {
+            if (!options.full &&
+                ((turn == 0 && poisson > 0.3 && poisson < 0.48) || (turn > 1 && poisson != 0.45)))
+                continue;
+            const std::string piece = "beam, " + name + ", " + nameOf(poisson);
+            const sim::Tissue tissue = tissueOf(options, poisson);
+            const BeamMeasures measures = measureBeam(beam, tissue, true);
+            checks.equalRel(piece + ": Young's modulus / given", measures.youngShare, 1, 0.03, "1");
+            checks.equalRel(piece + ": Poisson's ratio", measures.poisson, poisson, 0.03, "1");
+            checks.equalRel(piece + ": bending stiffness / E I", measures.bendingShare, 1, 0.05, "1");
+            // The section's shape, as 10 cells resolve it, enters with the fourth power.
+            checks.equalRel(piece + ": torsional stiffness / (mu J)", measures.torsionShare, 1, 0.08, "1");
+            checks.equalRel("block under pressure, " + name + ", " + nameOf(poisson) +
+                                ": bulk modulus / E / (3 (1 - 2 nu))",
+                            bulkModulusShare(cube, tissue), 1, 0.05, "1");
+        }
+    }
+}
+
+/// The figures above are statics of assumed forces: those of the reference solver, for two tissues.
+void forces(const VerifyOptions& options, CheckList& checks) {
+    const Beam beam = makeBeam(5, 8, randomRotation(1), kSpacing);
+    for (const double poisson : {0.35, 0.49}) {
+        SolverSetup setup;
+        setup.lattice = &beam.lattice;
+        setup.tissue = tissueOf(options, poisson);
+        setup.tissue.dampingTime = 0;
+        setup.timeStep = sim::stableStep(beam.lattice, setup.tissue, 1).timeStep;
+        checks.atMost("beam, " + nameOf(poisson) + ": reference force against the linear stiffness",
+                      linearForceMismatch(setup), 1e-4, "1");
+    }
+}
+
+void cantilevers(const VerifyOptions& options, CheckList& checks) {
+    for (const double poisson : {0.25, 0.45, 0.49}) {
+        std::vector<double> errors;
+        for (const int cells : {4, 6, 10}) {
+            if (cells == 10 && !options.full && poisson != 0.45)
+                continue;
+            const Beam beam = makeBeam(cells, 6 * cells, glm::dmat3(1), kSpacing);
+            const double share = cantileverSagShare(beam, tissueOf(options, poisson));
+            errors.push_back(std::abs(share - 1));
+            if (cells > 4)
+                checks.equalRel("cantilever " + std::to_string(cells) + " cells thick, " + nameOf(poisson) +
+                                    ": sag / beam theory",
+                                share, 1, 0.05, "1");
+        }
+        const double ratio = errors.size() == 3 ? 10.0 / 4 : 6.0 / 4; // of the finest to the coarsest
+        checks.atLeast("cantilever, " + nameOf(poisson) + ": order in h that the sag converges with",
+                       std::log(errors.front() / errors.back()) / std::log(ratio), 1.5, "1");
+    }
+}
+
+/// A ball between two large spheres, pressed to four fifths of its height, at rest.
+Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
+    SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 2000));
+    const double radius = 0.5 * ball.spacing * (ball.nodeDims.y - 1), tool = 20 * radius,
+                 press = 0.2 * radius;
+    const glm::dvec3 middle = ball.toWorld(0.5 * glm::dvec3(ball.nodeDims - 1) - glm::dvec3(ball.centre));
+    SolverSetup setup;
+    setup.lattice = &ball;
+    setup.tissue = tissueOf(options, 0.49);
+    setup.tissue.dampingTime = 0.002;
+    setup.tissue.airDrag = 20;
+    setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
+    for (const double side : {-1.0, 1.0}) {
+        const glm::dvec3 start = middle + glm::dvec3(0, side * (tool + radius), 0);
+        setup.tools.push_back({"plate",
+                               sim::ToolMode::push,
+                               tool,
+                               {{0, start}, {0.3, start - glm::dvec3(0, side * press, 0)}}});
+    }
+    SEROSA_ASSIGN(const std::unique_ptr<sim::Solver> solver, sim::makeFragmentSolver(setup));
+    solver->advance(int(0.5 / setup.timeStep));
+    const LatticeState state = solver->state();
+    const std::vector<double> volumes = sim::VolumeTerm::cellVolumes(ball, state.positions);
+    double sum = 0, fills = 0, height = 0;
+    for (std::size_t cell = 0; cell < volumes.size(); ++cell) {
+        sum += ball.cells[cell].fill * volumes[cell];
+        fills += ball.cells[cell].fill;
+    }
+    for (const glm::dvec3& x : state.positions)
+        height = std::max(height, std::abs((ball.toWorld(x) - middle).y));
+    checks.atMost("ball squeezed at nu 0.49: height / rest", height / radius, 0.85, "1");
+    checks.equalAbs("ball squeezed at nu 0.49: volume change", sum / fills - 1, 0, 0.02, "1");
+    return {};
+}
+
+/// The heart pressed by a probe, on both texture layouts; and flying freely.
+Status fragmentAgainstReference(const VerifyOptions& options, CheckList& checks) {
+    SEROSA_ASSIGN(const Lattice heart, phantomLattice("heart", 20000, options.full ? 20000 : 6000));
+    SolverSetup setup;
+    setup.lattice = &heart;
+    setup.tissue = tissueOf({}, 0.45);
+    setup.tissue.recovery = true;
+    setup.gravity = {0, -9.81, 0};
+    setup.timeStep = sim::stableStep(heart, setup.tissue, 1.0 / 60).timeStep;
+    const double end = 100 * setup.timeStep;
+    const glm::dvec3 low = heart.toWorld(-glm::dvec3(heart.centre));
+    const glm::dvec3 high = heart.toWorld(glm::dvec3(heart.nodeDims - 1 - heart.centre));
+    const glm::dvec3 side{high.x + 0.004, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+    setup.tools = {{"probe", sim::ToolMode::push, 0.008, {{0, side}, {end, side - glm::dvec3(0.015, 0, 0)}}}};
+    for (const glm::ivec3& node : heart.nodes)
+        setup.fixed.push_back(node.y < 4);
+    const std::unique_ptr<sim::Solver> reference = sim::makeReferenceSolver(setup);
+    reference->advance(100);
+    const LatticeState expected = reference->state();
+    if (options.inject.fault == Fault::stiffness)
+        setup.tissue.young *= options.inject.factor;
+    for (const int layout : {SRS_LAYOUT_ROWS, SRS_LAYOUT_GRID}) {
+        const std::string name = layout == SRS_LAYOUT_ROWS ? "rows" : "grid";
+        std::string hashes[2];
+        double worst = 0;
+        for (std::string& hash : hashes) {
+            sim::FragmentOptions fragment;
+            fragment.layout = layout;
+            SEROSA_ASSIGN(const std::unique_ptr<sim::Solver> solver,
+                          sim::makeFragmentSolver(setup, fragment));
+            solver->advance(100);
+            const LatticeState got = solver->state();
+            hash = got.hash();
+            for (std::size_t node = 0; node < got.positions.size(); ++node)
+                worst = std::max(worst, glm::length(got.positions[node] - expected.positions[node]));
+        }
+        checks.atMost("heart at nu 0.45, 100 steps with a probe: fragment (" + name + ") against reference",
+                      worst, 1e-3, "h");
+        checks.equalAbs("heart at nu 0.45: same bytes on a second run (" + name + ")",
+                        hashes[0] == hashes[1] ? 0 : 1, 0, 0, "1");
+    }
+    return {};
+}
+
+Status momentum(const VerifyOptions& options, CheckList& checks) {
+    SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 3000));
+    SolverSetup setup;
+    setup.lattice = &ball;
+    setup.tissue = tissueOf(options, 0.49);
+    setup.tissue.recovery = true;
+    setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
+    LatticeState state = sim::restState(ball);
+    std::mt19937 random(3);
+    for (glm::dvec3& u : state.increments)
+        for (int axis = 0; axis < 3; ++axis)
+            u[axis] = 0.005 * (double(random()) / 2147483648.0 - 1);
+    SEROSA_ASSIGN(const std::unique_ptr<sim::Solver> solver, sim::makeFragmentSolver(setup));
+    solver->setState(state);
+    glm::dvec3 drift(0);
+    double size = 0;
+    for (std::size_t node = 0; node < ball.nodeCount(); ++node) {
+        drift -= ball.massShare(node) * state.increments[node];
+        size += ball.massShare(node) * glm::length(state.increments[node]);
+    }
+    solver->advance(1000);
+    const LatticeState after = solver->state();
+    for (std::size_t node = 0; node < ball.nodeCount(); ++node)
+        drift += ball.massShare(node) * after.increments[node];
+    checks.atMost("ball at nu 0.49: momentum drift over 1,000 steps / sum of m|v|, fragment",
+                  glm::length(drift) / size, 1e-5, "1");
+    return {};
+}
+
+} // namespace
+
+Status verifyMaterials(const VerifyOptions& options, CheckList& checks) {
+    beams(options, checks);
+    forces(options, checks);
+    cantilevers(options, checks);
+    SEROSA_TRY(squeezedBall(options, checks));
+    SEROSA_TRY(momentum(options, checks));
+    return fragmentAgainstReference(options, checks);
+}
+
+} // namespace serosa::app

@@ -1,0 +1,243 @@
+// The kernel of sim/cpu_kernel.cpp: included once for each instruction set.
+#if defined(SEROSA_SIM_CPU_KERNEL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SEROSA_SIM_CPU_KERNEL_INL_H
+#undef SEROSA_SIM_CPU_KERNEL_INL_H
+#else
+#define SEROSA_SIM_CPU_KERNEL_INL_H
+#endif
+
+#include "sim/cpu_kernel.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace serosa::sim::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Rows of organs are short: longer vectors would hold mostly pads.
+using Lanes = hn::CappedTag<float, 16>;
+using Vec = hn::Vec<Lanes>;
+
+// Rows of kCpuRows by direction.
+enum Row { kSame = -1, kY, ky, kZ, kz, kYZ, kyz, kYz, kyZ };
+
+/// 1/sqrt(q), and exactly 1 at q = 1: the rest state then has no force at all.
+HWY_INLINE Vec reciprocalRoot(Lanes d, Vec q) {
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
+    // 12 bits, then Halley's step with fused products: within an ulp, and cheaper than a root and a division.
+    const Vec y = hn::ApproximateReciprocalSqrt(q);
+    const Vec error = hn::NegMulAdd(hn::Mul(q, y), y, hn::Set(d, 1.0f));
+    return hn::MulAdd(hn::Mul(y, error), hn::MulAdd(error, hn::Set(d, 0.375f), hn::Set(d, 0.5f)), y);
+#else
+    return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(q));
+#endif
+}
+
+/// Adds one spring of each lane: to the force in units of k h, and its direction to the sum of eq. 3 (times
+/// the rest length).
+template <bool kDamped, bool kNormals, bool kDiagonal>
+HWY_INLINE void addSpring(Lanes d, const CpuStep& step, const float* HWY_RESTRICT weight, std::size_t other,
+                          Vec x, Vec y, Vec z, Vec ux, Vec uy, Vec uz, Vec& fx, Vec& fy, Vec& fz, Vec& nx,
+                          Vec& ny, Vec& nz) {
+    const Vec w = hn::Load(d, weight);
+    const Vec dx = hn::Sub(x, hn::LoadU(d, step.positions[0] + other));
+    const Vec dy = hn::Sub(y, hn::LoadU(d, step.positions[1] + other));
+    const Vec dz = hn::Sub(z, hn::LoadU(d, step.positions[2] + other));
+    Vec length2 = hn::MulAdd(dz, dz, hn::MulAdd(dy, dy, hn::Mul(dx, dx)));
+    if constexpr (kDiagonal)
+        length2 = hn::Mul(length2, hn::Set(d, 0.5f));
+    // Rest length over length.
+    const Vec stretch = reciprocalRoot(d, hn::Max(length2, hn::Set(d, 1e-12f)));
+    Vec pull = hn::Sub(stretch, hn::Set(d, 1.0f));
+    if constexpr (kDamped) {
+        const Vec vx = hn::Sub(ux, hn::LoadU(d, step.increments[0] + other));
+        const Vec vy = hn::Sub(uy, hn::LoadU(d, step.increments[1] + other));
+        const Vec vz = hn::Sub(uz, hn::LoadU(d, step.increments[2] + other));
+        const Vec along = hn::MulAdd(dz, vz, hn::MulAdd(dy, vy, hn::Mul(dx, vx)));
+        const Vec damping = hn::Set(d, kDiagonal ? 0.5f * step.damping : step.damping);
+        pull = hn::NegMulAdd(hn::Mul(damping, along), hn::Mul(stretch, stretch), pull);
+    }
+    pull = hn::Mul(w, pull);
+    fx = hn::MulAdd(pull, dx, fx);
+    fy = hn::MulAdd(pull, dy, fy);
+    fz = hn::MulAdd(pull, dz, fz);
+    if constexpr (kNormals) {
+        const Vec unit = hn::IfThenElseZero(hn::Gt(w, hn::Zero(d)), stretch);
+        nx = hn::MulAdd(unit, dx, nx);
+        ny = hn::MulAdd(unit, dy, ny);
+        nz = hn::MulAdd(unit, dz, nz);
+    }
+}
+
+/// packNormal of sim/packed_normal.cpp, operation by operation.
+HWY_INLINE void storePackedNormals(Lanes d, Vec x, Vec y, Vec z, std::uint32_t* HWY_RESTRICT out) {
+    const hn::Rebind<std::int32_t, Lanes> di;
+    const hn::Rebind<std::uint32_t, Lanes> du;
+    const Vec zero = hn::Zero(d), one = hn::Set(d, 1.0f), minusOne = hn::Set(d, -1.0f);
+    const Vec sum = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), hn::Abs(z));
+    const auto some = hn::Gt(sum, zero);
+    const Vec divisor = hn::IfThenElse(some, sum, one);
+    const Vec nx = hn::IfThenElse(some, hn::Div(x, divisor), zero);
+    const Vec ny = hn::IfThenElse(some, hn::Div(y, divisor), one);
+    const Vec nz = hn::IfThenElse(some, hn::Div(z, divisor), zero);
+    const auto below = hn::Lt(nz, zero);
+    const Vec signX = hn::IfThenElse(hn::Ge(nx, zero), one, minusOne);
+    const Vec signY = hn::IfThenElse(hn::Ge(ny, zero), one, minusOne);
+    const Vec ex = hn::IfThenElse(below, hn::Mul(hn::Sub(one, hn::Abs(ny)), signX), nx);
+    const Vec ey = hn::IfThenElse(below, hn::Mul(hn::Sub(one, hn::Abs(nx)), signY), ny);
+    const Vec half = hn::Set(d, float(SRS_NORMAL_HALF_STEPS));
+    const Vec shift = hn::Set(d, float(SRS_NORMAL_HALF_STEPS) + 0.5f);
+    // Positive: the conversion truncates as floor does.
+    const auto qx = hn::BitCast(du, hn::ConvertTo(di, hn::Add(hn::Mul(ex, half), shift)));
+    const auto qy = hn::BitCast(du, hn::ConvertTo(di, hn::Add(hn::Mul(ey, half), shift)));
+    const auto data = hn::Or(qx, hn::ShiftLeft<15>(qy));
+    const auto low = hn::Or(hn::And(data, hn::Set(du, 0x7fffffu)), hn::Set(du, 0x800000u));
+    const auto middle = hn::ShiftLeft<1>(hn::And(data, hn::Set(du, 0x1f800000u)));
+    const auto high = hn::ShiftLeft<2>(hn::And(data, hn::Set(du, 0x20000000u)));
+    hn::Store(hn::Or(low, hn::Or(middle, high)), du, out);
+}
+
+/// Twin of ToolMotion::apply (sim/tool_motion.cpp) for the lanes that may move; `changed` gathers those that
+/// it moved.
+HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t slot, hn::Mask<Lanes> movable,
+                          Vec x, Vec y, Vec z, Vec& px, Vec& py, Vec& pz, hn::Mask<Lanes>& changed,
+                          double* HWY_RESTRICT impulse) {
+    const CpuTool& motion = step.tools[tool];
+    if (motion.mode != SRS_TOOL_PUSH && motion.mode != SRS_TOOL_GRASP)
+        return;
+    const Vec ax = hn::Sub(px, hn::Set(d, motion.to[0])), ay = hn::Sub(py, hn::Set(d, motion.to[1])),
+              az = hn::Sub(pz, hn::Set(d, motion.to[2]));
+    const Vec distance2 = hn::MulAdd(az, az, hn::MulAdd(ay, ay, hn::Mul(ax, ax)));
+    // The sphere touches the surface, which lies that far above the node.
+    const Vec reach =
+        hn::Max(hn::Add(hn::Set(d, motion.radius), hn::Load(d, step.depth + slot)), hn::Zero(d));
+    hn::Mask<Lanes> touched;
+    if (motion.mode == SRS_TOOL_PUSH) {
+        touched = hn::Lt(distance2, hn::Mul(reach, reach));
+    } else {
+        const hn::Rebind<std::uint32_t, Lanes> du;
+        touched =
+            hn::RebindMask(d, hn::Eq(hn::Load(du, step.heldBy + slot), hn::Set(du, unsigned(tool + 1))));
+    }
+    touched = hn::And(touched, movable);
+    if (hn::AllFalse(d, touched))
+        return;
+    Vec mx, my, mz;
+    if (motion.mode == SRS_TOOL_GRASP) {
+        mx = hn::Add(x, hn::Set(d, motion.move[0]));
+        my = hn::Add(y, hn::Set(d, motion.move[1]));
+        mz = hn::Add(z, hn::Set(d, motion.move[2]));
+    } else {
+        const auto apart = hn::Gt(distance2, hn::Set(d, 1e-12f));
+        const Vec distance = hn::Sqrt(hn::IfThenElse(apart, distance2, hn::Set(d, 1.0f)));
+        const Vec zero = hn::Zero(d);
+        mx = hn::MulAdd(hn::IfThenElse(apart, hn::Div(ax, distance), zero), reach, hn::Set(d, motion.to[0]));
+        my = hn::MulAdd(hn::IfThenElse(apart, hn::Div(ay, distance), hn::Set(d, 1.0f)), reach,
+                        hn::Set(d, motion.to[1]));
+        mz = hn::MulAdd(hn::IfThenElse(apart, hn::Div(az, distance), zero), reach, hn::Set(d, motion.to[2]));
+    }
+    const Vec mass = hn::IfThenElseZero(touched, hn::Load(d, step.mass + slot));
+    impulse[0] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(mx, px)))));
+    impulse[1] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(my, py)))));
+    impulse[2] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(mz, pz)))));
+    px = hn::IfThenElse(touched, mx, px);
+    py = hn::IfThenElse(touched, my, py);
+    pz = hn::IfThenElse(touched, mz, pz);
+    changed = hn::Or(changed, touched);
+}
+
+template <bool kDamped, bool kNormals>
+void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBlock,
+               double* HWY_RESTRICT impulses) {
+    const Lanes d;
+    const std::size_t lanes = hn::Lanes(d);
+    for (std::size_t block = firstBlock; block < lastBlock; ++block) {
+        const std::size_t slot = step.first + block * lanes;
+        const float* HWY_RESTRICT weights = step.weights + block * SRS_NEIGHBOURS * lanes;
+        const std::int32_t* rows = step.rows + block * 8;
+        const Vec x = hn::Load(d, step.positions[0] + slot), y = hn::Load(d, step.positions[1] + slot),
+                  z = hn::Load(d, step.positions[2] + slot);
+        const Vec ux = hn::Load(d, step.increments[0] + slot), uy = hn::Load(d, step.increments[1] + slot),
+                  uz = hn::Load(d, step.increments[2] + slot);
+        Vec fx = hn::Zero(d), fy = fx, fz = fx, nx = fx, ny = fx, nz = fx;
+        const auto other = [slot, rows](int dx, Row row) HWY_ATTR {
+            return std::size_t(std::ptrdiff_t(slot) + dx + (row == kSame ? 0 : rows[row]));
+        };
+#define SEROSA_SPRING(direction, diagonal, dx, row)                                                          \
+    addSpring<kDamped, kNormals, diagonal>(d, step, weights + direction * lanes, other(dx, row), x, y, z,    \
+                                           ux, uy, uz, fx, fy, fz, nx, ny, nz)
+        SEROSA_SPRING(0, false, 1, kSame);
+        SEROSA_SPRING(1, false, -1, kSame);
+        SEROSA_SPRING(2, false, 0, kY);
+        SEROSA_SPRING(3, false, 0, ky);
+        SEROSA_SPRING(4, false, 0, kZ);
+        SEROSA_SPRING(5, false, 0, kz);
+        if constexpr (kNormals) { // unit vectors of diagonals come out sqrt(2) too long, as all do from here
+                                  // on
+            const Vec diagonal = hn::Set(d, 1.41421356f);
+            nx = hn::Mul(nx, diagonal);
+            ny = hn::Mul(ny, diagonal);
+            nz = hn::Mul(nz, diagonal);
+        }
+        SEROSA_SPRING(6, true, 1, kY);
+        SEROSA_SPRING(7, true, -1, ky);
+        SEROSA_SPRING(8, true, 1, ky);
+        SEROSA_SPRING(9, true, -1, kY);
+        SEROSA_SPRING(10, true, 1, kZ);
+        SEROSA_SPRING(11, true, -1, kz);
+        SEROSA_SPRING(12, true, 1, kz);
+        SEROSA_SPRING(13, true, -1, kZ);
+        SEROSA_SPRING(14, true, 0, kYZ);
+        SEROSA_SPRING(15, true, 0, kyz);
+        SEROSA_SPRING(16, true, 0, kYz);
+        SEROSA_SPRING(17, true, 0, kyZ);
+#undef SEROSA_SPRING
+        // A volumetric term, which needs the corners of whole cells, enters here: as a force in units of k h
+        // that a pass before this one left for each slot, added to fx, fy, fz.
+        if constexpr (kNormals)
+            storePackedNormals(d, nx, ny, nz, step.normals + slot);
+
+        const Vec acceleration = hn::Load(d, step.acceleration + slot);
+        const auto movable = hn::Gt(acceleration, hn::Zero(d));
+        const Vec drag = hn::Set(d, step.drag);
+        Vec vx = hn::MulAdd(drag, ux, hn::MulAdd(acceleration, fx, hn::Set(d, step.gravity[0])));
+        Vec vy = hn::MulAdd(drag, uy, hn::MulAdd(acceleration, fy, hn::Set(d, step.gravity[1])));
+        Vec vz = hn::MulAdd(drag, uz, hn::MulAdd(acceleration, fz, hn::Set(d, step.gravity[2])));
+        vx = hn::IfThenElseZero(movable, vx);
+        vy = hn::IfThenElseZero(movable, vy);
+        vz = hn::IfThenElseZero(movable, vz);
+        Vec px = hn::Add(x, vx), py = hn::Add(y, vy), pz = hn::Add(z, vz);
+        if (step.toolCount > 0) {
+            auto changed = hn::MaskFromVec(hn::Zero(d));
+            for (int tool = 0; tool < step.toolCount; ++tool)
+                applyTool(d, step, tool, slot, movable, x, y, z, px, py, pz, changed, impulses + 3 * tool);
+            vx = hn::IfThenElse(changed, hn::Sub(px, x), vx);
+            vy = hn::IfThenElse(changed, hn::Sub(py, y), vy);
+            vz = hn::IfThenElse(changed, hn::Sub(pz, z), vz);
+        }
+        hn::Store(px, d, step.nextPositions[0] + slot);
+        hn::Store(py, d, step.nextPositions[1] + slot);
+        hn::Store(pz, d, step.nextPositions[2] + slot);
+        hn::Store(vx, d, step.nextIncrements[0] + slot);
+        hn::Store(vy, d, step.nextIncrements[1] + slot);
+        hn::Store(vz, d, step.nextIncrements[2] + slot);
+    }
+}
+
+void stepBlocks(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
+    if (step.damping > 0)
+        step.withNormals ? stepRange<true, true>(step, first, last, impulses)
+                         : stepRange<true, false>(step, first, last, impulses);
+    else
+        step.withNormals ? stepRange<false, true>(step, first, last, impulses)
+                         : stepRange<false, false>(step, first, last, impulses);
+}
+
+CpuKernel kernelOfTarget() {
+    return {hwy::TargetName(HWY_TARGET), hn::Lanes(Lanes()), stepBlocks};
+}
+
+} // namespace serosa::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

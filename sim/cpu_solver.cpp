@@ -1,0 +1,239 @@
+// MS05 3.1 on all cores: structure-of-arrays state in two halves, ping-pong, cut into chunks of blocks that
+// threads take in any order. No chunk reads what another writes in the same step, and what tools gave is
+// summed chunk after chunk: threads and their timing change no bit. The arithmetic is in sim/cpu_kernel.cpp.
+#include "sim/cpu_solver.h"
+
+#include "sim/cpu_kernel.h"
+#include "sim/cpu_layout.h"
+#include "sim/tool_motion.h"
+
+#include <hwy/aligned_allocator.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace serosa::sim {
+
+namespace {
+
+constexpr std::size_t kChunkSlots =
+    512; // a chunk: about 5 microseconds of work, and all in a first-level cache
+
+/// Aligned for the vectors, zero at first.
+template <class T>
+class SlotArray {
+public:
+    explicit SlotArray(std::size_t size) : data_(hwy::AllocateAligned<T>(size)) {
+        SEROSA_CHECK(data_, "memory for the state");
+        std::fill_n(data_.get(), size, T(0));
+    }
+    T* get() const { return data_.get(); }
+    T& operator[](std::size_t slot) const { return data_[slot]; }
+
+private:
+    hwy::AlignedFreeUniquePtr<T[]> data_;
+};
+
+/// Three coordinates, one array each.
+struct VectorArray {
+    SlotArray<float> axis[3];
+    explicit VectorArray(std::size_t size)
+        : axis{SlotArray<float>(size), SlotArray<float>(size), SlotArray<float>(size)} {}
+    void set(std::size_t slot, const glm::vec3& value) const {
+        for (int i = 0; i < 3; ++i)
+            axis[i][slot] = value[i];
+    }
+    glm::vec3 get(std::size_t slot) const { return {axis[0][slot], axis[1][slot], axis[2][slot]}; }
+};
+
+class CpuSolver final : public Solver {
+public:
+    CpuSolver(const SolverSetup& setup, const CpuOptions& options)
+        : setup_(setup), options_(options), kernel_(cpuKernel()),
+          layout_(makeCpuLayout(*setup.lattice, kernel_.lanes)),
+          arena_(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
+          positions_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
+          increments_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
+          weights_(layout_.blocks() * SRS_NEIGHBOURS * layout_.lanes), acceleration_(layout_.slots()),
+          mass_(layout_.slots()), depth_(layout_.slots()), normals_(layout_.slots()),
+          heldBy_(layout_.slots()), blocksPerChunk_(std::max<std::size_t>(1, kChunkSlots / layout_.lanes)),
+          chunks_((layout_.blocks() + blocksPerChunk_ - 1) / blocksPerChunk_),
+          chunkImpulses_(chunks_ * setup.tools.size() * 3), impulses_(setup.tools.size(), glm::dvec3(0)) {
+        const Lattice& lattice = *setup.lattice;
+        const double h = lattice.spacing, dt = setup.timeStep;
+        const double acceleration = dt * dt * setup.tissue.stiffnessOverMass(h);
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+            const std::size_t slot = slotOf(node);
+            const double mass = lattice.massShare(node);
+            const bool fixed = !setup.fixed.empty() && setup.fixed[node];
+            mass_[slot] = float(mass);
+            depth_[slot] = float(lattice.restDepth(node));
+            acceleration_[slot] = fixed ? 0.0F : float(acceleration / mass);
+        }
+        setWeights(lattice.connections);
+        setState(restState(lattice));
+    }
+
+    const char* name() const override { return "cpu"; }
+    const Lattice& lattice() const override { return *setup_.lattice; }
+
+    void advance(int count) override {
+        arena_.execute([this, count] {
+            for (int i = 0; i < count; ++i)
+                takeStep(options_.normalsEveryStep || i + 1 == count);
+        });
+    }
+
+    LatticeState state() const override {
+        const std::size_t count = layout_.slotOfNode.size();
+        LatticeState state;
+        state.step = step_;
+        state.connections = connections_;
+        state.positions.reserve(count);
+        state.increments.reserve(count);
+        for (std::size_t node = 0; node < count; ++node) {
+            const std::size_t slot = slotOf(node);
+            state.positions.emplace_back(positions_[current_].get(slot));
+            state.increments.emplace_back(increments_[current_].get(slot));
+            state.normals.push_back(normals_[slot]);
+            state.heldBy.push_back(heldBy_[slot]);
+        }
+        return state;
+    }
+
+    void setState(const LatticeState& state) override {
+        const std::size_t count = layout_.slotOfNode.size();
+        SEROSA_CHECK(state.positions.size() == count &&
+                         (state.connections.empty() || state.connections.size() == count),
+                     "a state of this lattice");
+        step_ = state.step;
+        if (state.connections != connections_) {
+            connections_ = state.connections;
+            setWeights(connections_.empty() ? setup_.lattice->connections : connections_);
+        }
+        for (std::size_t node = 0; node < count; ++node) {
+            const std::size_t slot = slotOf(node);
+            positions_[current_].set(slot, glm::vec3(state.positions[node]));
+            increments_[current_].set(slot, glm::vec3(state.increments[node]));
+            normals_[slot] = state.normals[node];
+            heldBy_[slot] = state.heldBy[node];
+        }
+    }
+
+    std::vector<glm::dvec3> takeToolImpulses() override {
+        // From mass shares times lattice units a step to N s.
+        const double unit =
+            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
+        std::vector<glm::dvec3> taken(impulses_.size(), glm::dvec3(0));
+        std::swap(taken, impulses_);
+        for (glm::dvec3& impulse : taken)
+            impulse *= unit;
+        return taken;
+    }
+
+private:
+    std::size_t slotOf(std::size_t node) const { return std::size_t(layout_.slotOfNode[node]); }
+
+    /// The weights of the springs that `connections` (18 bits a node) leaves.
+    void setWeights(const std::vector<std::uint32_t>& connections) {
+        for (std::size_t node = 0; node < connections.size(); ++node) {
+            const std::size_t place = slotOf(node) - layout_.first;
+            float* weights = weights_.get() + place / layout_.lanes * SRS_NEIGHBOURS * layout_.lanes +
+                             place % layout_.lanes;
+            for (int d = 0; d < SRS_NEIGHBOURS; ++d)
+                weights[std::size_t(d) * layout_.lanes] =
+                    connections[node] >> d & 1u ? float(setup_.lattice->springWeight(node, d)) : 0.0F;
+        }
+    }
+
+    CpuStep stepParameters(const std::vector<ToolMotion>& tools, bool withNormals) const {
+        const double h = setup_.lattice->spacing, dt = setup_.timeStep;
+        CpuStep step{};
+        for (int axis = 0; axis < 3; ++axis) {
+            step.positions[axis] = positions_[current_].axis[axis].get();
+            step.increments[axis] = increments_[current_].axis[axis].get();
+            step.nextPositions[axis] = positions_[1 - current_].axis[axis].get();
+            step.nextIncrements[axis] = increments_[1 - current_].axis[axis].get();
+            step.gravity[axis] = float(setup_.gravity[axis] * (dt * dt / h));
+        }
+        step.weights = weights_.get();
+        step.acceleration = acceleration_.get();
+        step.mass = mass_.get();
+        step.depth = depth_.get();
+        step.heldBy = heldBy_.get();
+        step.normals = normals_.get();
+        step.rows = layout_.rows.front().data();
+        step.first = layout_.first;
+        step.drag = float(1 - setup_.tissue.airDrag * dt);
+        step.damping = float(setup_.tissue.dampingTime / dt);
+        step.withNormals = withNormals;
+        step.toolCount = int(tools.size());
+        for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+            CpuTool& to = step.tools[tool];
+            to.mode = tools[tool].mode;
+            to.radius = float(tools[tool].radius);
+            for (int axis = 0; axis < 3; ++axis) {
+                to.to[axis] = float(tools[tool].to[axis]);
+                to.move[axis] = float(tools[tool].to[axis] - tools[tool].from[axis]);
+            }
+        }
+        return step;
+    }
+
+    void takeStep(bool withNormals) {
+        const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
+        updateHeld(tools);
+        const CpuStep step = stepParameters(tools, withNormals);
+        std::fill(chunkImpulses_.begin(), chunkImpulses_.end(), 0.0);
+        tbb::parallel_for(std::size_t(0), chunks_, [this, &step](std::size_t chunk) {
+            kernel_.step(step, chunk * blocksPerChunk_,
+                         std::min((chunk + 1) * blocksPerChunk_, layout_.blocks()),
+                         chunkImpulses_.data() + chunk * impulses_.size() * 3);
+        });
+        for (std::size_t i = 0; i < chunkImpulses_.size(); ++i)
+            impulses_[i / 3 % impulses_.size()][glm::length_t(i % 3)] += chunkImpulses_[i];
+        current_ = 1 - current_;
+        ++step_;
+    }
+
+    void updateHeld(const std::vector<ToolMotion>& tools) {
+        if (std::none_of(tools.begin(), tools.end(),
+                         [](const ToolMotion& tool) { return tool.closes || tool.opens; }))
+            return;
+        LatticeState now = state();
+        updateHeldNodes(setup_, tools, now);
+        for (std::size_t node = 0; node < now.heldBy.size(); ++node)
+            heldBy_[slotOf(node)] = now.heldBy[node];
+    }
+
+    SolverSetup setup_;
+    CpuOptions options_;
+    CpuKernel kernel_;
+    CpuLayout layout_;
+    tbb::task_arena arena_;
+    VectorArray positions_[2], increments_[2]; // lattice units
+    SlotArray<float> weights_;                 // a block: 18 directions of `lanes` weights
+    SlotArray<float> acceleration_, mass_, depth_;
+    SlotArray<std::uint32_t> normals_, heldBy_;
+    std::size_t blocksPerChunk_, chunks_;
+    std::vector<double> chunkImpulses_;      // a chunk: three a tool
+    std::vector<glm::dvec3> impulses_;       // mass shares times lattice units a step
+    std::vector<std::uint32_t> connections_; // as LatticeState::connections
+    int current_ = 0;
+    std::int64_t step_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<Solver> makeCpuSolver(const SolverSetup& setup, const CpuOptions& options) {
+    SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
+    SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    return std::make_unique<CpuSolver>(setup, options);
+}
+
+const char* cpuSolverTarget() {
+    return cpuKernel().target;
+}
+
+} // namespace serosa::sim

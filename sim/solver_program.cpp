@@ -1,0 +1,59 @@
+// See sim/solver_program.h.
+#include "sim/solver_program.h"
+
+#include "shaders/shared_constants.h"
+
+#include <array>
+#include <bit>
+#include <span>
+
+namespace serosa::sim {
+
+std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
+                                             const KernelOptions& options) {
+    std::vector<gpu::ShaderDefine> defines = {
+        {"SRS_LAYOUT", std::to_string(layout.kind)},
+        {"SRS_GRID_NY", std::to_string(layout.gridStride.z)},
+        {"SRS_ROW_LOG2", std::to_string(std::countr_zero(unsigned(layout.width)))},
+        {"SRS_TOOLS", std::to_string(setup.tools.size())},
+        {"SRS_EQUATION", options.printedForm ? "2" : "1"}};
+    if (setup.tissue.dampingTime > 0)
+        defines.push_back({"SRS_DAMPING", "1"});
+    if (setup.tissue.volumetric())
+        defines.push_back({"SRS_VOLUME", "1"});
+    if (options.normals)
+        defines.push_back({"SRS_NORMALS", "1"});
+    if (options.useTexelFetch)
+        defines.push_back({"SRS_TEXEL_FETCH", "1"});
+    return defines;
+}
+
+void setKernelUniforms(gpu::Program& program, const SolverSetup& setup) {
+    const double h = setup.lattice->spacing, dt = setup.timeStep;
+    program.set("u_acceleration", float(dt * dt * setup.tissue.stiffnessOverMass(h)));
+    program.set("u_drag", float(1 - setup.tissue.airDrag * dt));
+    program.set("u_gravity", glm::vec3(setup.gravity * (dt * dt / h)));
+    program.set("u_damping", float(setup.tissue.dampingTime / dt));
+}
+
+void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools) {
+    std::array<glm::vec4, SRS_MAX_TOOLS> spheres{}, moves{};
+    for (std::size_t i = 0; i < tools.size(); ++i) {
+        spheres[i] = glm::vec4(glm::vec3(tools[i].to), float(tools[i].radius));
+        moves[i] = glm::vec4(glm::vec3(tools[i].to - tools[i].from), float(tools[i].mode));
+    }
+    program.set("u_toolSpheres", std::span<const glm::vec4>(spheres));
+    program.set("u_toolMoves", std::span<const glm::vec4>(moves));
+}
+
+void setGraspUniforms(gpu::Program& program, unsigned holder, const ToolMotion& tool) {
+    program.set("u_sphere", glm::vec4(glm::vec3(tool.from), float(tool.radius)));
+    program.set("u_holder", holder);
+    program.set("u_closes", tool.closes ? 1 : 0);
+}
+
+double impulseUnit(const SolverSetup& setup) {
+    return setup.tissue.nodeMass(setup.lattice->spacing) * setup.lattice->spacing / setup.timeStep;
+}
+
+} // namespace serosa::sim

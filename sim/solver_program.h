@@ -1,0 +1,27 @@
+#pragma once
+// What the fragment and the compute solver tell their programs alike: the defines of
+// shaders/solver_kernel.glsl, and the uniforms of the kernel, the tools and the grasp pass.
+
+#include "gpu/program.h"
+#include "sim/solver.h"
+#include "sim/texture_layout.h"
+#include "sim/tool_motion.h"
+
+#include <vector>
+
+namespace serosa::sim {
+
+/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_TOOLS, SRS_EQUATION, SRS_DAMPING, SRS_VOLUME,
+/// SRS_NORMALS, SRS_TEXEL_FETCH.
+std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
+                                             const KernelOptions& options);
+/// What does not change between steps: stiffness, drag, gravity, damping, in lattice units.
+void setKernelUniforms(gpu::Program& program, const SolverSetup& setup);
+/// Spheres and moves of one step.
+void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools);
+/// The tool that takes hold or lets go. \param holder 1 + its index
+void setGraspUniforms(gpu::Program& program, unsigned holder, const ToolMotion& tool);
+/// N s of an impulse of 1 in mass shares times lattice units a step.
+double impulseUnit(const SolverSetup& setup);
+
+} // namespace serosa::sim

@@ -1,0 +1,62 @@
+#pragma once
+// The volumetric term: what raises Poisson's ratio above the springs' 1/4, and what turns collapsed and
+// inverted cells right again.
+//
+// A cell with fill f whose 24 connections are all there has, in lattice units and units of k h^2, with
+//   g_i = (+-1, +-1, +-1)/4 the corner gradients,  F = sum_i x_i g_i^T (the mean over the cell),  J = det F,
+// the energy f W(J) and the corner forces -f p cof(F) g_i,  p = W'(J):
+//   p = b (J - 1) q  -  r max(0, J0 - J),      b = bulkShare(),  r = kRecovery, J0 = kCollapsed.
+// Linearized this is the energy f b/2 (div u)^2 h^3, so lambda = (1 + b) k/h and mu = k/h stay as they were.
+// One point a cell is a selective reduced integration: nothing locks at Poisson's ratio 0.49, and the springs
+// resist the modes that the mean does not see. sum_i g_i = 0 keeps momentum; cof(F) F^T = J 1 is symmetric,
+// which keeps angular momentum: both exactly, whatever p is.
+//
+// q = min(1, (kStiffening / |cof F|^2)^2) departs from the energy where a cell is squeezed by more than 30%.
+// The tangent stiffness grows with |cof F|^2 (4 b |cof F|_2^2 k/m for the stiffest mode): unscaled, a cell
+// that is pressed to half its height has four times the rest lattice's, and no step found at rest would be
+// stable. With q it stays below 2.2 times of that, and 0.7 of the bound is stable up to 2.04 times.
+//
+// Recovery: springs have no energy in a cell that is turned inside out. W(J) of the second term pushes J up
+// from below J0 = 0.4, that is 26% of linear strain on all sides, or 60% along one axis: nothing changes for
+// any smaller strain. r must exceed 2.5: flattened cells are pushed back together by springs with k h at J =
+// 0. It needs no smaller step: in a flattened cell the stiffest mode of the springs has fallen from 12 k/m
+// below what the term adds, 4 r = 12.
+
+#include "sim/lattice.h"
+#include "sim/material.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace serosa::sim {
+
+class VolumeTerm {
+public:
+    VolumeTerm() = default; // no cells: adds nothing
+    /// \param connections 18 bits a node, what cuts left; a cell that lost one has no volumetric term.
+    VolumeTerm(const Lattice& lattice, const Tissue& tissue, const std::vector<std::uint32_t>& connections);
+
+    bool empty() const { return cells_.empty(); }
+    /// Adds the corner forces, in units of k h, to `force`, one a node.
+    void addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force) const;
+    /// In units of k h^2. Where q < 1 it is that of the force at the same cof(F).
+    double energy(const std::vector<glm::dvec3>& positions) const;
+    /// Adds y = K x of the linearized term, in units of k.
+    void addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) const;
+    /// Determinant of the mean deformation gradient, one a cell of the lattice.
+    static std::vector<double> cellVolumes(const Lattice& lattice, const std::vector<glm::dvec3>& positions);
+
+private:
+    struct Cell {
+        std::array<std::uint32_t, 8> corners; // corner c lies at +x if c&1, +y if c&2, +z if c&4
+        double fill;
+    };
+    std::vector<Cell> cells_;
+    double bulk_ = 0, recovery_ = 0;
+};
+
+/// The directions of the 18 that stay inside a cell from its corner c: 3 edges and 3 face diagonals.
+std::uint32_t directionsInCell(int corner);
+
+} // namespace serosa::sim

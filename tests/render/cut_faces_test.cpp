@@ -1,0 +1,81 @@
+// What is drawn of an organ that was cut: nothing spans the gap, nothing else is missing.
+#include "render/cut_faces.h"
+#include "sim/blade.h"
+#include "tests/sim/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+using namespace serosa;
+
+namespace {
+
+/// An ellipsoid, and a blade across x that comes down to lowestY, m.
+struct CutEllipsoid {
+    sim::TriangleMesh mesh;
+    sim::Lattice lattice;
+    render::SurfaceBinding binding;
+    std::vector<std::uint32_t> connections;
+
+    explicit CutEllipsoid(double lowestY) {
+        mesh = test::ballMesh(1, 4);
+        for (glm::dvec3& p : mesh.positions)
+            p *= glm::dvec3(0.018, 0.006, 0.006);
+        sim::LatticeRequest request;
+        request.spacing = 0.0015;
+        lattice = sim::buildLattice(mesh, request).value();
+        binding = render::bindSurface(lattice, mesh, sim::Mapping::triangle);
+        connections = lattice.connections;
+        sim::Stroke stroke;
+        stroke.from = {glm::dvec3(0.0004, 0.02, -0.02), glm::dvec3(0.0004, 0.02, 0.02)};
+        stroke.to = {glm::dvec3(0.0004, lowestY, -0.02), glm::dvec3(0.0004, lowestY, 0.02)};
+        std::vector<glm::dvec3> rest;
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+            rest.push_back(lattice.restPosition(node));
+        sim::cutConnections(lattice, rest, sim::toLattice(stroke, lattice), connections);
+    }
+};
+
+} // namespace
+
+TEST(CutFacesDrawn, allFacesWhereNothingIsCut) {
+    const CutEllipsoid body(0.02);
+    EXPECT_EQ(body.connections, body.lattice.connections);
+    const std::vector<bool> left =
+        render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
+    EXPECT_EQ(std::count(left.begin(), left.end(), false), 0);
+    EXPECT_EQ(render::boundaryLeft(body.lattice, body.connections), body.lattice.boundary);
+}
+
+TEST(CutFacesDrawn, noFaceSpansACut) {
+    for (const double lowestY : {-0.02, 0.0}) { // all through, and half
+        const CutEllipsoid body(lowestY);
+        const std::vector<bool> left =
+            render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
+        for (std::size_t f = 0; f < left.size(); ++f) {
+            glm::dvec3 low(1), high(-1);
+            for (int i = 0; i < 3; ++i) {
+                low = glm::min(low, body.mesh.positions[body.mesh.faces[f][i]]);
+                high = glm::max(high, body.mesh.positions[body.mesh.faces[f][i]]);
+            }
+            const double h = body.lattice.spacing;
+            if (low.x < 0.0004 && high.x > 0.0004 && low.y > lowestY + h) {
+                EXPECT_FALSE(left[f]) << f;
+            } else if (low.x > 3 * h || high.x < -2 * h || high.y < lowestY - 2 * h) {
+                EXPECT_TRUE(left[f]) << f;
+            }
+        }
+        // One-to-one: every edge of the drawn triangles is shared by as many in each direction (closed).
+        std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+        for (const glm::uvec3& t : render::boundaryLeft(body.lattice, body.connections))
+            for (int i = 0; i < 3; ++i) {
+                ++edges[{t[i], t[(i + 1) % 3]}];
+                --edges[{t[(i + 1) % 3], t[i]}];
+            }
+        EXPECT_GT(edges.size(), 500u);
+        for (const auto& [edge, balance] : edges)
+            EXPECT_EQ(balance, 0);
+    }
+}
