@@ -17,7 +17,7 @@ namespace serosa::app {
 
 namespace {
 
-constexpr std::size_t kFaces = 20000; // of the heart: enough for its lattice
+constexpr std::size_t kFaces = 12000; // of the heart: its fewest, and enough for the lattice
 constexpr int kAgreementSteps = 30;
 constexpr double kAgreement = 1e-3; // h
 
