@@ -97,10 +97,11 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
 
 Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
                                   const std::filesystem::path& scene) {
-    const double rate2 =
-        12 * organ.tissue.stiffnessOverMass(lattice.spacing); // 1/s2, the least that it can be
-    // Damping c = dampingTime k along springs bounds the step by about 2 / (dampingTime rate2), too.
-    const double steps = frameTime * std::max(std::sqrt(rate2), organ.tissue.dampingTime * rate2) / 2;
+    // 1/s2, the least that they can be: of the springs, and with the volumetric term
+    const double perShare = organ.tissue.stiffnessOverMass(lattice.spacing), springs2 = 12 * perShare,
+                 rate2 = springs2 + 4 * organ.tissue.bulkShare() * perShare;
+    // Damping c = dampingTime k along springs bounds the step by about 2 / (dampingTime springs2), too.
+    const double steps = frameTime * std::max(std::sqrt(rate2), organ.tissue.dampingTime * springs2) / 2;
     if (!(steps <= kMostStepsAFrame))
         return Error{scenePosition(scene, organ.modelLine) +
                      "the tissue is so stiff or damped on so fine a lattice that a frame would take " +

@@ -28,6 +28,14 @@ void ScenePlayer::cut(std::size_t i) {
         // A part continues the stroke before it; where several cuts move at once, each part is a stroke.
         more.front().continues = more.front().continues && lastCut_[i] == c;
         lastCut_[i] = c;
+        // Once more over the last frame's sweep: tissue that swings against the blade would slip by between
+        // frames.
+        for (sim::Stroke& again : parts_.scene.cuts[c].strokes(std::max(0.0, from - (to - from)), from)) {
+            if (again.kind != sim::StrokeKind::blade || !more.front().continues)
+                break;
+            again.continues = true;
+            strokes.push_back(again);
+        }
         strokes.insert(strokes.end(), more.begin(), more.end());
     }
     if (const double strain = parts_.scene.organs[i].tearStrain; strain > 0) {

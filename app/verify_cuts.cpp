@@ -22,7 +22,7 @@ using sim::SolverSetup;
 using sim::Stroke;
 
 Result<Lattice> heartLattice(std::size_t nodes) {
-    SEROSA_ASSIGN(sim::TriangleMesh mesh, models::makePhantom("heart", 8000));
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, models::makePhantom("heart", 12000));
     for (glm::dvec3& p : mesh.positions)
         p *= 1e-3;
     sim::LatticeRequest request;

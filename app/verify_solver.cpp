@@ -1,4 +1,4 @@
-// Group `solver`: the lattice and its solvers against closed forms, conservation and each other. Both solvers
+// Group `solver`: the lattice and its solvers against closed forms, conservation and each other. The solvers
 // run through the same measures; the fault that --inject names is put into the tissue or the lattice that
 // they are given.
 #include "app/elastic_measures.h"
@@ -6,6 +6,7 @@
 #include "app/verify.h"
 #include "models/phantom.h"
 #include "shaders/shared_constants.h"
+#include "sim/cpu_solver.h"
 
 #include <cmath>
 #include <random>
@@ -19,9 +20,9 @@ using sim::LatticeState;
 using sim::Solver;
 using sim::SolverSetup;
 
-enum class Which { reference, fragment };
+enum class Which { reference, fragment, cpu };
 const char* label(Which which) {
-    return which == Which::reference ? "reference" : "fragment";
+    return which == Which::reference ? "reference" : which == Which::fragment ? "fragment" : "cpu";
 }
 
 /// A body under test: the lattice with the injected fault, and the setup that points to it.
@@ -44,6 +45,8 @@ struct Body {
     Result<std::unique_ptr<Solver>> solver(Which which, int layout = -1) const {
         if (which == Which::reference)
             return sim::makeReferenceSolver(setup);
+        if (which == Which::cpu)
+            return sim::makeCpuSolver(setup);
         sim::FragmentOptions options;
         options.layout = layout;
         return sim::makeFragmentSolver(setup, options);
@@ -263,7 +266,7 @@ Status beams(const VerifyOptions& options, CheckList& checks) {
                       linearForceMismatch(body.setup), 1e-5, "1");
         const double closedForm =
             2 * beam.length * 0.003 / std::sqrt(sim::Tissue().young / sim::Tissue().density);
-        for (const Which which : {Which::reference, Which::fragment}) {
+        for (const Which which : {Which::reference, Which::fragment, Which::cpu}) {
             SEROSA_ASSIGN(const std::unique_ptr<Solver> solver, body.solver(which));
             checks.equalRel("beam, " + name + ": first longitudinal period, " + label(which),
                             longitudinalPeriod(beam, body.setup, *solver), closedForm, 0.02, "s");
@@ -375,7 +378,7 @@ Status hangingColumn(const VerifyOptions& options, CheckList& checks) {
 
 Status verifySolver(const VerifyOptions& options, CheckList& checks) {
     SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 3000));
-    for (const Which which : {Which::reference, Which::fragment}) {
+    for (const Which which : {Which::reference, Which::fragment, Which::cpu}) {
         SEROSA_TRY(oneSpring(options, which, checks));
         SEROSA_TRY(freeFall(options, which, ball, checks));
         SEROSA_TRY(momentum(options, which, ball, checks));

@@ -149,7 +149,9 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     else
         SEROSA_TRY(table.read("nodes", organ.nodes));
 
-    SEROSA_TRY(table.read("tear_strain", organ.tearStrain));
+    std::optional<double> tearStrain;
+    SEROSA_TRY(table.read("tear_strain", tearStrain));
+    organ.tearStrain = tearStrain.value_or(0);
     if (table.has("tear_strain") && table.has("pose"))
         return table.errorAt("tear_strain", "has no effect beside 'pose': keep one of the two");
     SEROSA_ASSIGN(const toml::table* tissue, table.table("tissue"));

@@ -96,7 +96,7 @@ TEST_F(CutScene, badOnesAreRefusedByLine) {
     says("[[cut]]\nradius = \"1 mm\"\nkeys = [" + key("0 s", end) + ", " + key("1 s", end) + "]\n",
          "no effect on a blade");
     says("[[cut]]\nkind = \"cauterize\"\nkeys = [" + key("0 s", end) + "]\n", "no effect on cauterizing");
-    says("[[cut]]\nkind = \"laser\"\nkeys = [" + key("0 s", end) + "]\n", "\"blade\" or \"cauterize\"");
+    says("[[cut]]\nkind = \"laser\"\nkeys = [" + key("0 s", end) + "]\n", "known: blade, cauterize");
     says("[[cut]]\nkind = \"cauterize\"\nkeys = []\n", "at least one");
     says("tear_strain = 0\n", "greater than 0");
     says("tear_strain = 1\n[organ.pose]\nbend_radius = \"1 m\"\n", "beside 'pose'");

@@ -249,6 +249,7 @@ TEST(Cut, thinRemainsStayFinite) {
         ASSERT_TRUE(solver->cut(test::randomStroke(lattice, random, 1.0)).ok());
         solver->advance(10);
     }
+    ASSERT_TRUE(solver->cut(test::fullCut(lattice, 0.3)).ok());
     solver->advance(300);
     const LatticeState after = solver->state();
     EXPECT_GT(sim::countPieces(solver->pieces().value()).pieces, 1u);
