@@ -42,7 +42,7 @@
 #define SRS_STROKE_BLADE 0
 #define SRS_STROKE_CAUTERIZE 1
 #define SRS_STROKE_TEAR 2
-#define SRS_HIGHER_DIRECTIONS 0x26655u              // connections that lead to a node with a higher index
+#define SRS_HIGHER_DIRECTIONS 0x26655u           // connections that lead to a node with a higher index
 #define SRS_BLADE_ROUNDING 5.684341886080802e-14 // 2^-44: bound of all rounding, a unit of size and normal
 #define SRS_BLADE_FLAT 5.9604644775390625e-8     // 2^-24 h: a strip that turns by less counts as flat
 #define SRS_BLADE_MOST_TESTS 2048                // of strips, a spring

@@ -9,7 +9,8 @@ namespace {
 
 TEST(Help, NamesEveryOptionItsUnitAndAnExample) {
     const TestFolder folder;
-    for (const char* command : {"run", "inspect", "repair", "phantom", "verify", "bench", "doctor", "scene"}) {
+    for (const char* command :
+         {"run", "inspect", "repair", "phantom", "verify", "bench", "doctor", "scene"}) {
         const ChildResult help = runSerosa(folder.path(), {command, "--help"});
         EXPECT_EQ(help.exitCode, 0) << command;
         EXPECT_EQ(help.err, "") << command;
