@@ -284,7 +284,7 @@ glm::u8vec3 colour(const Point& p) {
                     ramp(0.5, -0.3, bones));
         return toBytes(c);
     }
-    const Colour palmSkin(226, 166, 142), backSkin(206, 150, 120), red(206, 106, 92), crease(168, 92, 78);
+    const Colour palmSkin(212, 148, 122), backSkin(190, 130, 100), red(190, 88, 76), crease(140, 70, 58);
     const double front = ramp(-6, 5, p.z);
     Colour c = mix(backSkin, palmSkin, front);
     c = mix(c, red, 0.16 * (0.5 + 0.5 * broad) + 0.05 * mid);

@@ -35,11 +35,11 @@ struct Face {
                           {{13, -45.5, 21.8}, 4.3},
                           {{24, -42, 15.8}, 1.3}},
                          1.0)};
-    Tube slit{spline({{{-22, -42, 20.2}, 1},
-                      {{-12, -41.5, 27.2}, 1.2},
-                      {{0, -41.8, 31.2}, 1.3},
-                      {{12, -41.5, 27.2}, 1.2},
-                      {{22, -42, 20.2}, 1}},
+    Tube slit{spline({{{-18.5, -41.8, 20.5}, 1.1},
+                      {{-12, -41.5, 27.5}, 1.28},
+                      {{0, -41.8, 31.5}, 1.37},
+                      {{12, -41.5, 27.5}, 1.28},
+                      {{18.5, -41.8, 20.5}, 1.1}},
                      1.0)};
     Outline eye{{{10.5, 5}, {15, 10}, {23, 13.2}, {31, 12.2}, {39.5, 7.2}, {33, 4}, {24.5, 2.2}, {16, 2.8}}};
 };
@@ -73,7 +73,7 @@ double skin(const Point& q) {
     d = blend(d, nose, 9);
     d = carve(d, capsule(q, {0, -23, 33}, {0, -32, 33.5}, 2.2, 2.8), 4); // under the nose
     d = blend(d, blend(f.upperLip.distance(q), f.lowerLip.distance(q), 1), 4);
-    return carve(d, f.slit.distance(q), 2.2);
+    return carve(d, f.slit.distance(q), 3);
 }
 
 double eyeHole(const Point& m) {
@@ -91,7 +91,7 @@ double shell(const Point& p) {
 glm::u8vec3 colour(const Point& p) {
     const Point q = place().local(p), m = mirrored(q);
     const double fine = noise(p / 2.5), broad = layeredNoise(p / 18.0, 2);
-    const Colour gold(222, 176, 74), pale(244, 212, 128), dark(120, 78, 34), red(150, 40, 36);
+    const Colour gold(188, 132, 44), pale(208, 160, 76), dark(92, 54, 22), red(132, 30, 28);
     Colour c = mix(gold, pale, 0.4 + 0.4 * broad);
     if (skin(q) < -1.2) // behind
         return toBytes(mix(dark, gold, 0.25) + 4.0 * fine);
@@ -99,7 +99,9 @@ glm::u8vec3 colour(const Point& p) {
     c = mix(c, dark, 0.7 * ramp(1.5, -1.5, face().brow.distance(m) - 0.5));
     const double lips = std::min(face().upperLip.distance(q), face().lowerLip.distance(q));
     c = mix(c, red, 0.85 * ramp(0.9, -0.1, lips));
-    c = mix(c, dark, ramp(0.9, 0.2, face().slit.distance(q)));
+    const double gap = std::hypot(std::max(0.0, std::abs(q.x) - 15), q.y + 41.8); // between the lips
+    c = mix(c, red, ramp(4, 2.5, gap) * ramp(12, 18, q.z));
+    c = mix(c, mix(red, dark, 0.5), 0.8 * ramp(2.2, 0.6, face().slit.distance(q)));
     return toBytes(c + 3.0 * fine);
 }
 
@@ -107,7 +109,9 @@ double wantedSize(const Point& p) {
     const Point q = place().local(p), m = mirrored(q);
     const double lips = std::min(face().upperLip.distance(q), face().lowerLip.distance(q));
     const double fine = std::min({std::abs(eyeHole(m)), lips, face().nose.distance(q)});
-    return q.z < -15 ? 1 : 0.6 + 0.6 * ramp(1, 14, fine);
+    if (q.z < -15)
+        return 1;
+    return std::min(0.6 + 0.6 * ramp(1, 14, fine), 0.4 + 0.6 * ramp(1, 8, face().slit.distance(q)));
 }
 
 } // namespace

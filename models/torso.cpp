@@ -160,7 +160,7 @@ glm::u8vec3 colour(const Point& p) {
         c = mix(c, Colour(236, 224, 196), ramp(1.5, -1, bone));
         return toBytes(c);
     }
-    const Colour skin(220, 164, 134), red(200, 112, 94), shade(178, 112, 88);
+    const Colour skin(200, 142, 112), red(182, 94, 76), shade(150, 88, 66);
     Colour c = mix(skin, red, 0.12 + 0.14 * broad);
     const double hollow = relief(m);
     c = mix(c, shade, 0.30 * ramp(1, 7, hollow));
