@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <map>
+#include <optional>
+#include <set>
 
 namespace serosa::models {
 namespace {
@@ -69,19 +72,34 @@ TEST(Phantom, EachComesOutWithTheSameBytes) {
         const char* first = reinterpret_cast<const char*>(list.data());
         return std::string(first, list.size() * sizeof(list[0]));
     };
-    for (const PhantomInfo& info : phantoms()) {
-        if (info.name == "heart")
-            continue; // heart_test.cpp
+    // Those that take longest are compared with fewer faces.
+    const auto facesOf = [](const PhantomInfo& info) {
+        const bool fewer = std::set<std::string>{"golfball", "skin", "fish", "hand"}.contains(info.name);
+        return fewer ? std::size_t{20000} : info.defaultFaces;
+    };
+    // The second ones come from two threads, which must not matter either.
+    std::vector<std::optional<Result<sim::TriangleMesh>>> second(phantoms().size());
+    const auto makeFrom = [&](std::size_t i) {
+        for (; i < second.size(); i += 2)
+            if (phantoms()[i].name != "heart") // heart_test.cpp
+                second[i] = makePhantom(phantoms()[i].name, facesOf(phantoms()[i]));
+    };
+    auto other = std::async(std::launch::async, makeFrom, 1);
+    makeFrom(0);
+    other.get();
+    for (std::size_t i = 0; i < second.size(); ++i) {
+        if (!second[i])
+            continue;
+        const PhantomInfo& info = phantoms()[i];
         SCOPED_TRACE(info.name);
-        // Those with the most faces are compared with fewer, for time; coins cannot have so few.
-        const bool fewer = info.defaultFaces > 40000 && info.name != "coins";
-        const std::size_t faces = fewer ? 20000 : info.defaultFaces;
-        const auto first = fewer ? makePhantom(info.name, faces) : test::defaultPhantom(info.name);
-        const auto second = makePhantom(info.name, faces);
-        ASSERT_TRUE(first.ok() && second.ok());
-        EXPECT_TRUE(bytes(first->positions) == bytes(second->positions));
-        EXPECT_TRUE(bytes(first->faces) == bytes(second->faces));
-        EXPECT_TRUE(bytes(first->colours) == bytes(second->colours));
+        const std::size_t faces = facesOf(info);
+        const auto first =
+            faces < info.defaultFaces ? makePhantom(info.name, faces) : test::defaultPhantom(info.name);
+        const auto& again = *second[i];
+        ASSERT_TRUE(first.ok() && again.ok());
+        EXPECT_TRUE(bytes(first->positions) == bytes(again->positions));
+        EXPECT_TRUE(bytes(first->faces) == bytes(again->faces));
+        EXPECT_TRUE(bytes(first->colours) == bytes(again->colours));
     }
 }
 
