@@ -234,14 +234,15 @@ glm::ivec2 Window::framebufferSize() const {
     glm::ivec2 size(0);
     if (!displayProblem() && !glfwGetWindowAttrib(state_->window, GLFW_ICONIFIED))
         glfwGetFramebufferSize(state_->window, &size.x, &size.y);
-    return glm::max(size, glm::ivec2(0));
+    // Where the display went away during the call, GLFW hands out what was in memory.
+    return displayProblem() ? glm::ivec2(0) : glm::max(size, glm::ivec2(0));
 }
 
 glm::ivec2 Window::size() const {
     glm::ivec2 size(0);
     if (!displayProblem())
         glfwGetWindowSize(state_->window, &size.x, &size.y);
-    return size;
+    return displayProblem() ? glm::ivec2(0) : size;
 }
 
 double Window::contentScale() const {

@@ -13,7 +13,7 @@ vec3 applyTool(int tool, uint holder, float depth, vec3 x, vec3 free) {
     vec3 away = free - u_toolSpheres[tool].xyz;
     float distance2 = dot(away, away);
     float radius = max(u_toolSpheres[tool].w + depth, 0.0);
-    if (mode != SRS_TOOL_PUSH || distance2 >= radius * radius)
+    if (mode != SRS_TOOL_PUSH || !(distance2 < radius * radius)) // what is no number stays so
         return free;
     vec3 direction = distance2 > 1e-12 ? away * inversesqrt(distance2) : vec3(0.0, 1.0, 0.0);
     return u_toolSpheres[tool].xyz + direction * radius;

@@ -38,7 +38,8 @@ int Scene::frames() const {
 }
 
 std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
-    if (scene.duration * scene.frameRate > kMostFrames)
+    if (scene.duration * scene.frameRate >
+        kMostFrames + 0.5) // half a frame: a count divided by the rate and multiplied again
         return SceneProblem{"", "duration",
                             "gives " + formatNumber(scene.duration * scene.frameRate) +
                                 " frames, at most 1e6 are possible: lower duration or frame_rate"};

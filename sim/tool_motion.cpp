@@ -18,7 +18,7 @@ glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool h
         return free;
     const glm::dvec3 away = free - to;
     const double distance = glm::length(away), reach = std::max(radius + depth, 0.0);
-    if (distance >= reach)
+    if (!(distance < reach)) // what is no number stays so: a tool must not hide it
         return free;
     return to + (distance > 1e-6 ? away / distance : glm::dvec3(0, 1, 0)) * reach;
 }

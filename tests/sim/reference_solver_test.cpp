@@ -104,14 +104,18 @@ TEST(ReferenceSolver, pushLeavesNoNodeInsideAndAccountsForTheMomentum) {
                     0.004,
                     {{0, top + glm::dvec3(0, 0.006, 0)}, {end, top + glm::dvec3(0, 0.001, 0)}}}};
     const auto solver = sim::makeReferenceSolver(setup);
-    solver->advance(100);
-    const LatticeState state = solver->state();
-    const glm::dvec3 centre = lattice.toLattice(setup.tools[0].centreAt(end));
-    glm::dvec3 momentum(0);
     double closest = 1e9;
+    for (int step = 1; step <= 100; ++step) {
+        solver->advance(1);
+        const LatticeState now = solver->state();
+        const glm::dvec3 at = lattice.toLattice(setup.tools[0].centreAt(end * step / 100));
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+            closest = std::min(closest, (glm::length(now.positions[node] - at) - lattice.restDepth(node)) *
+                                            lattice.spacing);
+    }
+    const LatticeState state = solver->state();
+    glm::dvec3 momentum(0);
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
-        closest = std::min(closest, (glm::length(state.positions[node] - centre) - lattice.restDepth(node)) *
-                                        lattice.spacing);
         momentum += lattice.massShare(node) * setup.tissue.nodeMass(lattice.spacing) *
                     state.increments[node] * (lattice.spacing / setup.timeStep);
     }
