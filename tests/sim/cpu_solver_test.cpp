@@ -55,7 +55,9 @@ struct Organ {
         setup.tools = {{"probe",
                         sim::ToolMode::push,
                         0.006,
-                        {{0, top + glm::dvec3(0, 0.006, 0)}, {t, top - glm::dvec3(0, 0.007, 0)}}},
+                        {{0, top + glm::dvec3(0, 0.004, 0)},
+                         {0.2 * t, top - glm::dvec3(0, 0.006, 0)}, // faster than it sags
+                         {t, top - glm::dvec3(0, 0.012, 0)}}},
                        {"forceps",
                         sim::ToolMode::grasp,
                         0.007,
