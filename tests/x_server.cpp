@@ -134,8 +134,13 @@ XServer::WindowId XServer::waitForWindow(const std::string& wanted, double secon
             if (children)
                 XFree(children);
         }
-        if (found)
+        if (found) {
+            // No window manager gives it the keys; the program asks for them itself, but later on a busy
+            // machine.
+            XSetInputFocus(display, found, RevertToPointerRoot, CurrentTime);
+            XSync(display, False);
             return found;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return 0;

@@ -327,6 +327,7 @@ TEST_F(View, QuitsByKeyAndBySignal) {
 TEST_F(View, LosingTheDisplayEndsWithTheStateInOneLine) {
     ViewChild view(folder_.path(), {"ball.toml"}, server_->display());
     ASSERT_NE(server_->waitForWindow("ball - Serosa", kPatience), 0U) << view.err();
+    view.next("view: ");
     server_->key("space");
     const std::string paused = std::to_string(std::atoi(view.next("paused at frame ").c_str()) + 1);
     server_->key("period");
