@@ -21,15 +21,6 @@ constexpr std::size_t kFaces = 12000; // of the heart: its fewest, and enough fo
 constexpr int kAgreementSteps = 30;
 constexpr double kAgreement = 1e-3; // h
 
-Result<sim::Lattice> heartLattice(std::size_t nodes) {
-    SEROSA_ASSIGN(sim::TriangleMesh heart, models::makePhantom("heart", kFaces));
-    for (glm::dvec3& position : heart.positions)
-        position *= 1e-3; // mm
-    sim::LatticeRequest request;
-    request.nodes = nodes;
-    return sim::buildLattice(heart, request);
-}
-
 double largestDifference(const sim::LatticeState& a, const sim::LatticeState& b) {
     double worst = 0;
     for (std::size_t node = 0; node < a.positions.size(); ++node) {
@@ -83,7 +74,7 @@ void printTable(const Rounds& rounds, const std::vector<Candidate>& candidates, 
 
 Result<int> pickFastestSolver(const PickOptions& options, std::ostream& out) {
     SEROSA_ASSIGN(const std::filesystem::path file, userConfigFile());
-    SEROSA_ASSIGN(const sim::Lattice lattice, heartLattice(options.nodes));
+    SEROSA_ASSIGN(const sim::Lattice lattice, models::phantomLattice("heart", kFaces, options.nodes));
     SEROSA_ASSIGN(const std::unique_ptr<gpu::Context> context, gpu::createContext(options.gl));
     sim::SolverSetup setup;
     setup.lattice = &lattice;

@@ -7,7 +7,7 @@
 #include "models/phantom.h"
 #include "models/simple_shapes.h"
 #include "shaders/shared_constants.h"
-#include "sim/volume_term.h"
+#include "sim/cell_volumes.h"
 
 #include <cmath>
 #include <random>
@@ -33,15 +33,6 @@ sim::Tissue tissueOf(const VerifyOptions& options, double poisson, double young 
     if (options.inject.fault == Fault::stiffness)
         tissue.young *= options.inject.factor;
     return tissue;
-}
-
-Result<Lattice> phantomLattice(const std::string& name, std::size_t faces, std::size_t nodes) {
-    SEROSA_ASSIGN(sim::TriangleMesh mesh, models::makePhantom(name, faces));
-    for (glm::dvec3& p : mesh.positions)
-        p *= 1e-3;
-    sim::LatticeRequest request;
-    request.nodes = nodes;
-    return sim::buildLattice(mesh, request);
 }
 
 /// Tension, bending, torsion and pressure of beams and blocks 10 cells thick, aligned and in three random
@@ -107,7 +98,7 @@ void cantilevers(const VerifyOptions& options, CheckList& checks) {
 
 /// A ball between two large spheres, pressed to four fifths of its height, at rest.
 Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 2000));
+    SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 2000));
     const double radius = 1e-3 * models::kBallRadius, tool = 20 * radius, press = 0.2 * radius;
     const glm::dvec3 middle = ball.toWorld(0.5 * glm::dvec3(ball.nodeDims - 1) - glm::dvec3(ball.centre));
     SolverSetup setup;
@@ -126,7 +117,7 @@ Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
     SEROSA_ASSIGN(const std::unique_ptr<sim::Solver> solver, sim::makeFragmentSolver(setup));
     solver->advance(int(0.5 / setup.timeStep));
     const LatticeState state = solver->state();
-    const std::vector<double> volumes = sim::VolumeTerm::cellVolumes(ball, state.positions);
+    const std::vector<double> volumes = sim::cellVolumeRatios(ball, state);
     double sum = 0, fills = 0, height = 0;
     for (std::size_t cell = 0; cell < volumes.size(); ++cell) {
         sum += ball.cells[cell].fill * volumes[cell];
@@ -142,7 +133,7 @@ Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
 
 /// The heart pressed by a probe, on both texture layouts; and flying freely.
 Status fragmentAgainstReference(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(const Lattice heart, phantomLattice("heart", 20000, options.full ? 20000 : 6000));
+    SEROSA_ASSIGN(const Lattice heart, models::phantomLattice("heart", 20000, options.full ? 20000 : 6000));
     SolverSetup setup;
     setup.lattice = &heart;
     setup.tissue = tissueOf({}, 0.45);
@@ -185,7 +176,7 @@ Status fragmentAgainstReference(const VerifyOptions& options, CheckList& checks)
 }
 
 Status momentum(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 3000));
+    SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 3000));
     SolverSetup setup;
     setup.lattice = &ball;
     setup.tissue = tissueOf(options, 0.49);

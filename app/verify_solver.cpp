@@ -73,15 +73,6 @@ Lattice block(int nx, int ny, int nz, double spacing = 0.003) {
     return sim::latticeFromCells(cells, spacing, glm::dvec3(0));
 }
 
-Result<Lattice> phantomLattice(const std::string& name, std::size_t faces, std::size_t nodes) {
-    SEROSA_ASSIGN(sim::TriangleMesh mesh, models::makePhantom(name, faces));
-    for (glm::dvec3& p : mesh.positions)
-        p *= 1e-3;
-    sim::LatticeRequest request;
-    request.nodes = nodes;
-    return sim::buildLattice(mesh, request);
-}
-
 double random01(std::mt19937& random) {
     return double(random()) / 4294967296.0;
 }
@@ -377,7 +368,7 @@ Status hangingColumn(const VerifyOptions& options, CheckList& checks) {
 } // namespace
 
 Status verifySolver(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(const Lattice ball, phantomLattice("ball", 5000, 3000));
+    SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 3000));
     for (const Which which : {Which::reference, Which::fragment, Which::cpu}) {
         SEROSA_TRY(oneSpring(options, which, checks));
         SEROSA_TRY(freeFall(options, which, ball, checks));
@@ -389,7 +380,7 @@ Status verifySolver(const VerifyOptions& options, CheckList& checks) {
     SEROSA_TRY(strainEnergy(options, "partly filled cells", true, checks));
     SEROSA_TRY(beams(options, checks));
     SEROSA_TRY(hangingColumn(options, checks));
-    SEROSA_ASSIGN(const Lattice heart, phantomLattice("heart", 50000, 20000));
+    SEROSA_ASSIGN(const Lattice heart, models::phantomLattice("heart", 50000, 20000));
     SEROSA_TRY(heartAgainstReference(options, heart, checks));
     if (options.full)
         SEROSA_TRY(restStays(options, heart, "heart of 20,000 nodes", checks));

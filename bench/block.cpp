@@ -28,9 +28,7 @@ sim::Lattice denseLattice(int nodesAlongAnEdge) {
 Result<const sim::TriangleMesh*> heartSurface() {
     static sim::TriangleMesh heart;
     if (heart.faces.empty()) {
-        SEROSA_ASSIGN(heart, models::makePhantom("heart", 50000));
-        for (glm::dvec3& position : heart.positions)
-            position *= 1e-3; // mm
+        SEROSA_ASSIGN(heart, models::phantomInMetres("heart", 50000));
     }
     return &heart;
 }

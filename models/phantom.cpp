@@ -83,4 +83,18 @@ Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces
                  (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; there are: " + all};
 }
 
+Result<sim::TriangleMesh> phantomInMetres(const std::string& name, std::size_t faces) {
+    SEROSA_ASSIGN(sim::TriangleMesh mesh, makePhantom(name, faces));
+    for (glm::dvec3& position : mesh.positions)
+        position *= 1e-3;
+    return mesh;
+}
+
+Result<sim::Lattice> phantomLattice(const std::string& name, std::size_t faces, std::size_t nodes) {
+    SEROSA_ASSIGN(const sim::TriangleMesh mesh, phantomInMetres(name, faces));
+    sim::LatticeRequest request;
+    request.nodes = nodes;
+    return sim::buildLattice(mesh, request);
+}
+
 } // namespace serosa::models

@@ -3,6 +3,7 @@
 // manifold, no self-contact. `serosa phantom NAME --faces N -o FILE`.
 
 #include "base/result.h"
+#include "sim/lattice.h"
 #include "sim/triangle_mesh.h"
 
 #include <string>
@@ -21,5 +22,9 @@ const std::vector<PhantomInfo>& phantoms();
 /// origin, with vertex colours. Errors: unknown name (with a suggestion), a face count that the shape cannot
 /// have.
 Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces);
+/// The same in metres.
+Result<sim::TriangleMesh> phantomInMetres(const std::string& name, std::size_t faces);
+/// The lattice of a phantom in metres, with about `nodes` nodes. Errors: also those of sim::buildLattice.
+Result<sim::Lattice> phantomLattice(const std::string& name, std::size_t faces, std::size_t nodes);
 
 } // namespace serosa::models

@@ -5,19 +5,27 @@
 
 namespace serosa::sim {
 
+CellCorners cornersOf(const Lattice& lattice, const LatticeCell& cell) {
+    CellCorners corners;
+    for (int c = 0; c < 8; ++c)
+        corners[std::size_t(c)] =
+            std::uint32_t(lattice.nodeAt(cell.grid + glm::ivec3(c & 1, (c >> 1) & 1, (c >> 2) & 1)));
+    return corners;
+}
+
+glm::dmat3 meanGradient(const CellCorners& corners, const std::vector<glm::dvec3>& x) {
+    glm::dmat3 gradient(0);
+    for (int c = 0; c < 8; ++c)
+        for (int axis = 0; axis < 3; ++axis)
+            gradient[axis] += 0.25 * cornerSign(c)[axis] * x[corners[std::size_t(c)]];
+    return gradient;
+}
+
 std::vector<double> cellVolumeRatios(const Lattice& lattice, const LatticeState& state) {
     std::vector<double> ratios;
     ratios.reserve(lattice.cells.size());
-    for (const LatticeCell& cell : lattice.cells) {
-        glm::dmat3 gradient(0);
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::ivec3 side(corner & 1, (corner >> 1) & 1, corner >> 2);
-            const glm::dvec3& x = state.positions[std::size_t(lattice.nodeAt(cell.grid + side))];
-            for (int axis = 0; axis < 3; ++axis)
-                gradient[axis] += x * (side[axis] ? 0.25 : -0.25);
-        }
-        ratios.push_back(glm::determinant(gradient));
-    }
+    for (const LatticeCell& cell : lattice.cells)
+        ratios.push_back(glm::determinant(meanGradient(cornersOf(lattice, cell), state.positions)));
     return ratios;
 }
 

@@ -1,13 +1,9 @@
 // The lattice stepped by compute passes (shaders/solver_step.comp): the fragment solver's kernel, textures
 // and order of passes, with image stores in place of render targets. Tool impulses go to one slot a texel and
 // tool, which a second pass sums in a fixed order when they are asked for.
-#include "gpu/program.h"
 #include "shaders/shared_constants.h"
-#include "sim/cut_pass.h"
-#include "sim/solver.h"
 #include "sim/solver_program.h"
-#include "sim/state_textures.h"
-#include "sim/tool_motion.h"
+#include "sim/texture_solver.h"
 
 #include <array>
 
@@ -19,7 +15,7 @@ constexpr int kImpulseRun = 4096; // texels whose impulses one work group sums
 
 } // namespace
 
-class ComputeSolver final : public Solver {
+class ComputeSolver final : public TextureSolver {
 public:
     static Result<std::unique_ptr<Solver>> create(const SolverSetup& setup, const ComputeOptions& options) {
         std::unique_ptr<ComputeSolver> solver(new ComputeSolver(setup, options));
@@ -28,12 +24,6 @@ public:
     }
 
     const char* name() const override { return "compute"; }
-    const Lattice& lattice() const override { return *setup_.lattice; }
-    Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
-    bool undoCut() override { return cuts_.undo(textures_); }
-    void forgetCuts() override { cuts_.forget(); }
-    Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
-    const StateTextures* textures() const override { return &textures_; }
 
     void advance(int count) override {
         // What earlier draws wrote as render targets or uploads must be visible to the first step.
@@ -43,13 +33,6 @@ public:
         // Drawing fetches the textures; readback and upload copy them.
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
                         GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    }
-
-    LatticeState state() const override { return textures_.download(step_); }
-
-    void setState(const LatticeState& state) override {
-        textures_.upload(state);
-        step_ = state.step;
     }
 
     std::vector<glm::dvec3> takeToolImpulses() override {
@@ -71,7 +54,7 @@ public:
 
 private:
     ComputeSolver(const SolverSetup& setup, const ComputeOptions& options)
-        : setup_(setup), options_(options) {}
+        : TextureSolver(setup), options_(options) {}
 
     Status initialize() {
         SEROSA_ASSIGN(textures_, StateTextures::create(*setup_.lattice, setup_.fixed, options_.layout));
@@ -91,12 +74,8 @@ private:
         const gpu::ShaderLibrary library;
         SEROSA_ASSIGN(stepProgram_, gpu::Program::create(library, {"solver_step.comp"}, defines));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"grasp.comp"}));
-        setKernelUniforms(stepProgram_, setup_);
+        setConstants();
         stepProgram_.set("u_items", items_);
-        if (grid)
-            return createImpulses(library);
-        stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
-        stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
         return createImpulses(library);
     }
 
@@ -120,55 +99,29 @@ private:
     }
 
     void takeStep() {
-        if (!setup_.tools.empty())
-            setTools();
-        const int from = textures_.current_, to = 1 - from;
-        if (options_.useTexelFetch) {
-            stepProgram_.texture("t_positions", textures_.positions_[from]);
-            stepProgram_.texture("t_increments", textures_.increments_[from]);
-        } else {
-            stepProgram_.image("i_positions", textures_.positions_[from], GL_READ_ONLY);
-            stepProgram_.image("i_increments", textures_.increments_[from], GL_READ_ONLY);
-        }
-        stepProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
+        setTools();
+        setStepInputs(options_.useTexelFetch);
+        const std::size_t to = std::size_t(nextHalf());
         stepProgram_.image("i_newPositions", textures_.positions_[to], GL_WRITE_ONLY);
         stepProgram_.image("i_newIncrements", textures_.increments_[to], GL_WRITE_ONLY);
         // The volumetric term's pass over the cells (sim/volume_term.h) will run here, before the step.
         stepProgram_.dispatch(items_);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                         GL_SHADER_STORAGE_BARRIER_BIT);
-        textures_.current_ = to;
-        ++step_;
+        finishStep();
     }
 
-    void setTools() {
-        const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-        setToolUniforms(stepProgram_, tools);
-        for (std::size_t i = 0; i < tools.size(); ++i)
-            if (tools[i].closes || tools[i].opens)
-                updateHeld(unsigned(i + 1), tools[i]);
-    }
-
-    void updateHeld(unsigned holder, const ToolMotion& tool) {
-        const int to = 1 - textures_.currentInfo_;
-        graspProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
-        graspProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
+    void runGrasp(int to) override {
         graspProgram_.image("i_newNodeInfo", textures_.nodeInfo_[to], GL_WRITE_ONLY);
-        setGraspUniforms(graspProgram_, holder, tool);
         graspProgram_.dispatch({textures_.layout().width, textures_.layout().height, 1});
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        textures_.currentInfo_ = to;
     }
 
-    SolverSetup setup_;
     ComputeOptions options_;
-    StateTextures textures_;
-    gpu::Program stepProgram_, graspProgram_, impulseProgram_;
+    gpu::Program impulseProgram_;
     gpu::Buffer impulses_, impulseSums_; // a slot (3 floats) a texel and tool; a sum a group and tool
     int impulseGroups_ = 0;
-    mutable CutPass cuts_; // programs made when first needed
     glm::ivec3 items_{0};
-    std::int64_t step_ = 0;
 };
 
 Result<std::unique_ptr<Solver>> makeComputeSolver(const SolverSetup& setup, const ComputeOptions& options) {

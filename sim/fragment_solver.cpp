@@ -1,17 +1,13 @@
 // MS05 3.1: the lattice is stepped in a fragment shader (shaders/solver_step.frag) over 2D state textures,
 // several steps a frame, ping-pong, with no readback. Tool impulses are summed by blending into one small
 // texture a tool.
-#include "gpu/program.h"
 #include "shaders/shared_constants.h"
-#include "sim/cut_pass.h"
-#include "sim/solver.h"
 #include "sim/solver_program.h"
-#include "sim/state_textures.h"
-#include "sim/tool_motion.h"
+#include "sim/texture_solver.h"
 
 namespace serosa::sim {
 
-class FragmentSolver final : public Solver {
+class FragmentSolver final : public TextureSolver {
 public:
     static Result<std::unique_ptr<Solver>> create(const SolverSetup& setup, const FragmentOptions& options) {
         std::unique_ptr<FragmentSolver> solver(new FragmentSolver(setup, options));
@@ -20,8 +16,6 @@ public:
     }
 
     const char* name() const override { return "fragment"; }
-    const Lattice& lattice() const override { return *setup_.lattice; }
-    const StateTextures* textures() const override { return &textures_; }
 
     void advance(int count) override {
         glDisable(GL_DEPTH_TEST);
@@ -35,18 +29,6 @@ public:
         for (std::size_t tool = 0; tool < setup_.tools.size(); ++tool)
             glDisablei(GL_BLEND, GLuint(2 + tool));
     }
-
-    LatticeState state() const override { return textures_.download(step_); }
-
-    void setState(const LatticeState& state) override {
-        textures_.upload(state);
-        step_ = state.step;
-    }
-
-    Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
-    bool undoCut() override { return cuts_.undo(textures_); }
-    void forgetCuts() override { cuts_.forget(); }
-    Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
 
     std::vector<glm::dvec3> takeToolImpulses() override {
         const double unit = impulseUnit(setup_);
@@ -65,15 +47,13 @@ public:
 
 private:
     FragmentSolver(const SolverSetup& setup, const FragmentOptions& options)
-        : setup_(setup), options_(options) {}
+        : TextureSolver(setup), options_(options) {}
 
     Status initialize() {
         SEROSA_ASSIGN(textures_, StateTextures::create(*setup_.lattice, setup_.fixed, options_.layout));
         const TextureLayout& layout = textures_.layout();
         const gpu::ShaderLibrary library;
-        std::vector<gpu::ShaderDefine> defines = kernelDefines(setup_, layout, options_);
-        if (setup_.tissue.volumetric())
-            defines.push_back({"SRS_VOLUME", "1"});
+        const std::vector<gpu::ShaderDefine> defines = kernelDefines(setup_, layout, options_);
         SEROSA_ASSIGN(stepProgram_,
                       gpu::Program::create(library, {"pass.vert", "solver_step.frag"}, defines));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"pass.vert", "grasp.frag"}));
@@ -97,11 +77,7 @@ private:
             SEROSA_TRY(initializeVolume(library, defines));
         emptyVertices_ = gpu::VertexArray("no attributes");
 
-        setKernelUniforms(stepProgram_, setup_);
-        if (layout.kind == SRS_LAYOUT_ROWS) {
-            stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
-            stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
-        }
+        setConstants();
         return {};
     }
 
@@ -121,10 +97,7 @@ private:
         volumeTarget_.setDrawBuffers(3);
         volumeProgram_.set("u_bulk", float(setup_.tissue.bulkShare()));
         volumeProgram_.set("u_recovery", float(setup_.tissue.recovery ? SRS_RECOVERY : 0));
-        if (layout.kind == SRS_LAYOUT_ROWS) {
-            volumeProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
-            volumeProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
-        }
+        setRowOffsets(volumeProgram_);
         return {};
     }
 
@@ -142,60 +115,33 @@ private:
     }
 
     void takeStep() {
-        if (!setup_.tools.empty())
-            setTools();
+        setTools();
         if (setup_.tissue.volumetric())
             takeVolumePass();
-        const int from = textures_.current_, to = 1 - from;
-        if (options_.useTexelFetch) {
-            stepProgram_.texture("t_positions", textures_.positions_[from]);
-            stepProgram_.texture("t_increments", textures_.increments_[from]);
-        } else {
-            stepProgram_.image("i_positions", textures_.positions_[from], GL_READ_ONLY);
-            stepProgram_.image("i_increments", textures_.increments_[from], GL_READ_ONLY);
-        }
-        stepProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
-        stepTargets_[std::size_t(to)].bind(textures_.layout().width, textures_.layout().height);
+        setStepInputs(options_.useTexelFetch);
+        stepTargets_[std::size_t(nextHalf())].bind(textures_.layout().width, textures_.layout().height);
         stepProgram_.use();
         // Image loads are incoherent: what the last pass wrote as a render target must be visible first.
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT);
         gpu::drawFullScreen(emptyVertices_);
-        textures_.current_ = to;
-        ++step_;
+        finishStep();
     }
 
-    void setTools() {
-        const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-        setToolUniforms(stepProgram_, tools);
-        for (std::size_t i = 0; i < tools.size(); ++i)
-            if (tools[i].closes || tools[i].opens)
-                updateHeld(unsigned(i + 1), tools[i]);
-    }
-
-    void updateHeld(unsigned holder, const ToolMotion& tool) {
-        const int to = 1 - textures_.currentInfo_;
-        graspProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
-        graspProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
-        setGraspUniforms(graspProgram_, holder, tool);
+    void runGrasp(int to) override {
         graspTargets_[std::size_t(to)].bind(textures_.layout().width, textures_.layout().height);
         graspProgram_.use();
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
         gpu::drawFullScreen(emptyVertices_);
-        textures_.currentInfo_ = to;
     }
 
-    SolverSetup setup_;
     FragmentOptions options_;
-    StateTextures textures_;
-    gpu::Program stepProgram_, graspProgram_, volumeProgram_;
+    gpu::Program volumeProgram_;
     gpu::Framebuffer stepTargets_[2], graspTargets_[2];
-    mutable CutPass cuts_;                 // programs made when first needed
     std::vector<gpu::Texture2D> impulses_; // one a tool
     gpu::Texture2D volume_[3];             // a cell's fill p cof(F), column by column
     gpu::Framebuffer volumeTarget_;
     gpu::VertexArray emptyVertices_;
-    std::int64_t step_ = 0;
 };
 
 Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup, const FragmentOptions& options) {

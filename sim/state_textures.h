@@ -33,6 +33,7 @@ public:
 
 private:
     friend class CutPass;
+    friend class TextureSolver;
     friend class FragmentSolver;
     friend class ComputeSolver;
     StateTextures() = default;

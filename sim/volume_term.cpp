@@ -2,6 +2,7 @@
 #include "sim/volume_term.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/cell_volumes.h"
 #include "sim/solver.h"
 
 #include <algorithm>
@@ -9,27 +10,6 @@
 namespace serosa::sim {
 
 namespace {
-
-glm::dvec3 cornerSign(int corner) {
-    return {corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1};
-}
-
-std::array<std::uint32_t, 8> cornersOf(const Lattice& lattice, const LatticeCell& cell) {
-    std::array<std::uint32_t, 8> corners;
-    for (int c = 0; c < 8; ++c)
-        corners[std::size_t(c)] =
-            std::uint32_t(lattice.nodeAt(cell.grid + glm::ivec3(c & 1, (c >> 1) & 1, (c >> 2) & 1)));
-    return corners;
-}
-
-/// Columns dx/dX, dx/dY, dx/dZ: a matrix as GLM stores it.
-glm::dmat3 meanGradient(const std::array<std::uint32_t, 8>& corners, const std::vector<glm::dvec3>& x) {
-    glm::dmat3 gradient(0);
-    for (int c = 0; c < 8; ++c)
-        for (int axis = 0; axis < 3; ++axis)
-            gradient[axis] += 0.25 * cornerSign(c)[axis] * x[corners[std::size_t(c)]];
-    return gradient;
-}
 
 glm::dmat3 cofactors(const glm::dmat3& f) {
     return {glm::cross(f[1], f[2]), glm::cross(f[2], f[0]), glm::cross(f[0], f[1])};
@@ -116,14 +96,6 @@ Status supportsTissue(const std::string& solver, const Tissue& tissue) {
     return Error{"the " + solver + " solver has no volumetric term, which " +
                  (tissue.poisson > 0.25 ? "a Poisson's ratio above 0.25" : "recovery") +
                  " needs: take --solver fragment or reference"};
-}
-
-std::vector<double> VolumeTerm::cellVolumes(const Lattice& lattice,
-                                            const std::vector<glm::dvec3>& positions) {
-    std::vector<double> volumes;
-    for (const LatticeCell& cell : lattice.cells)
-        volumes.push_back(glm::determinant(meanGradient(cornersOf(lattice, cell), positions)));
-    return volumes;
 }
 
 } // namespace serosa::sim

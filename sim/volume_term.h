@@ -22,10 +22,10 @@
 // 0. It needs no smaller step: in a flattened cell the stiffest mode of the springs has fallen from 12 k/m
 // below what the term adds, 4 r = 12.
 
+#include "sim/cell_volumes.h"
 #include "sim/lattice.h"
 #include "sim/material.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,12 +44,10 @@ public:
     double energy(const std::vector<glm::dvec3>& positions) const;
     /// Adds y = K x of the linearized term, in units of k.
     void addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) const;
-    /// Determinant of the mean deformation gradient, one a cell of the lattice.
-    static std::vector<double> cellVolumes(const Lattice& lattice, const std::vector<glm::dvec3>& positions);
 
 private:
     struct Cell {
-        std::array<std::uint32_t, 8> corners; // corner c lies at +x if c&1, +y if c&2, +z if c&4
+        CellCorners corners;
         double fill;
     };
     std::vector<Cell> cells_;
