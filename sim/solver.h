@@ -9,8 +9,8 @@
 //      P = f p(J, cof F) cof F in units of k/h;
 //   2. adds -P g_i, g_i = (+-1, +-1, +-1)/4, to the force of each of its 8 corners before the step below: all
 //      take the same P, so that the forces sum to nothing.
-// VolumeTerm::addForces is the oracle, shaders/volume_cells.frag with solver_volume.glsl (SRS_VOLUME) the
-// GPU's way. A solver without it refuses such tissue (supportsTissue).
+// VolumeTerm::addForces is the oracle, shaders/cell_terms.glsl with solver_cells.glsl the GPU's way. A solver
+// without it refuses such tissue (supportsTissue).
 //
 // Several materials: m, w and b, r of the volumetric term are sums and values of the cells' own materials, in
 // units of material 0 (sim/tissue_field.h). A solver that implements stiffening (sim/stiffening.h) multiplies

@@ -1,4 +1,4 @@
-// See sim/stiffening.h. Twin of the GPU's pass, shaders/volume_cells.frag.
+// See sim/stiffening.h. Twin of the GPU's pass, shaders/cell_stiffening.glsl.
 #include "sim/stiffening.h"
 
 #include "shaders/shared_constants.h"

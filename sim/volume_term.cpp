@@ -1,4 +1,4 @@
-// See sim/volume_term.h. Twin of shaders/solver_volume.glsl and shaders/volume_cells.frag.
+// See sim/volume_term.h. Twin of shaders/cell_terms.glsl and shaders/solver_cells.glsl.
 #include "sim/volume_term.h"
 
 #include "shaders/shared_constants.h"
@@ -107,12 +107,12 @@ double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
 }
 
 Status supportsTissue(const std::string& solver, const Tissue& tissue) {
-    if (solver == "reference")
+    if (solver != "cpu")
         return {};
-    const bool several = tissue.materialCount() > 1 || tissue.stiffens() || tissue.fibrous();
-    if (several)
-        return Error{"the " + solver + " solver has no materials yet: take --solver reference"};
-    if (!tissue.volumetric() || solver == "fragment")
+    if (tissue.materialCount() > 1 || tissue.stiffens() || tissue.fibrous())
+        return Error{
+            "the cpu solver has one linear material without fibres: take --solver fragment or reference"};
+    if (!tissue.volumetric())
         return {};
     return Error{"the " + solver + " solver has no volumetric term, which " +
                  (tissue.poisson > 0.25 ? "a Poisson's ratio above 0.25" : "recovery") +
