@@ -60,10 +60,10 @@ std::vector<MaterialShares> materialShares(const Tissue& tissue) {
         shares.dampingTime = material.dampingTime;
         shares.spring.fill(shares.stiffness);
         if (material.fibrous()) {
-            const double excess = (material.fibreYoung - material.young) / tissue.shearModulus();
-            const std::array<double, 9> fibres = fibreSprings(material.fibre);
+            const std::array<double, 9> fibres =
+                fibreSprings(material.fibre, material.young, material.poisson, material.fibreYoung);
             for (std::size_t p = 0; p < 9; ++p)
-                shares.spring[p] += excess * fibres[p];
+                shares.spring[p] += fibres[p] / tissue.shearModulus();
         }
         shares.breaks = breaksOf(material);
         all.push_back(shares);
