@@ -107,7 +107,7 @@ double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
 }
 
 Status supportsTissue(const std::string& solver, const Tissue& tissue) {
-    if (solver == "reference")
+    if (solver == "reference" || solver == "cpu")
         return {};
     const bool several = tissue.materialCount() > 1 || tissue.stiffens() || tissue.fibrous();
     if (several)
