@@ -201,15 +201,19 @@ TEST(Stiffening, energyUnderTensionIsTheAreaUnderTheCurve) {
     }
 }
 
-TEST(Stiffening, factorIsTheSecantOfTheCurve) {
+TEST(Stiffening, factorIsTheCurveOverTheSpringsOwn) {
     Tissue tissue;
     tissue.young = 2000;
     tissue.curve = {{0.1, 200}, {0.2, 1200}};
     const sim::MaterialShares shares = sim::materialShares(tissue).front();
+    const double a = 1.75 * 0.2; // springs at 1/4 bend upward by themselves
+    const auto springs = [a](double strain) { return 2000 * strain * (1 + 1.5 * a * strain); };
     EXPECT_DOUBLE_EQ(shares.stiffening(0), 1);
-    EXPECT_DOUBLE_EQ(shares.stiffening(0.1), 1);
-    EXPECT_NEAR(shares.stiffening(0.15), 700 / (2000 * 0.15), 1e-12);
-    EXPECT_NEAR(shares.stiffening(0.3), 2200 / (2000 * 0.3), 1e-12); // beyond the last point, straight on
+    EXPECT_NEAR(shares.stiffening(0.1), 200 / springs(0.1), 1e-12);
+    EXPECT_NEAR(shares.stiffening(0.15), 700 / springs(0.15), 1e-12);
+    EXPECT_NEAR(shares.stiffening(0.3), 2200 / springs(0.3), 1e-12); // beyond the last point, straight on
+    for (const double strain : {0.0, 1e-6, 0.1, 0.4, 1.5})
+        EXPECT_NEAR(shares.tensionStrain(strain * strain * (1 + a * strain)), strain, 1e-9);
     EXPECT_NEAR(shares.largestTangent(), 5, 1e-12);
 }
 
