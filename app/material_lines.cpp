@@ -111,7 +111,7 @@ std::vector<glm::u8vec3> materialColours(const sim::Lattice& lattice, const sim:
                 glm::any(glm::greaterThanEqual(cell, lattice.nodeDims)))
                 continue;
             const auto found = materials.find(key(cell));
-            const double distance = glm::distance(place, glm::dvec3(cell) + 0.5);
+            const double distance = cell == home ? 0 : glm::distance(place, glm::dvec3(cell) + 0.5);
             if (found != materials.end() && distance < nearest) {
                 nearest = distance;
                 material = found->second;

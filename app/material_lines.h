@@ -26,7 +26,7 @@ std::vector<MaterialLine> materialLines(const sim::Organ& organ, const sim::Latt
 /// overwrote.
 std::vector<std::string> materialNotes(const sim::Organ& organ, const sim::Lattice& lattice);
 
-/// A colour a vertex: of the material of the cell whose centre is nearest.
+/// A colour a vertex: of the material of the cell that it lies in, else of the one whose centre is nearest.
 /// \param metres the surface that the lattice was built from, m.
 std::vector<glm::u8vec3> materialColours(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
+#include <utility>
 
 namespace serosa::sim {
 
@@ -24,23 +24,26 @@ int apart(const glm::u8vec3& a, const glm::u8vec3& b) {
     return std::max({difference.x, difference.y, difference.z});
 }
 
-/// Sorted z, y, x, as a lattice's cells are.
-bool comesBefore(const LatticeCell& a, const LatticeCell& b) {
-    return std::tie(a.grid.z, a.grid.y, a.grid.x) < std::tie(b.grid.z, b.grid.y, b.grid.x);
-}
-
-/// Partly filled, or with an outer face: one flag a cell.
-std::vector<bool> outermostCells(const Lattice& lattice) {
-    std::vector<bool> outermost;
-    for (const LatticeCell& cell : lattice.cells) {
-        bool enclosed = cell.fill == 255;
-        for (int d = 0; d < 6 && enclosed; ++d)
-            enclosed = std::binary_search(lattice.cells.begin(), lattice.cells.end(),
-                                          LatticeCell{cell.grid + kNeighbourOffsets[std::size_t(d)], 0},
-                                          comesBefore);
-        outermost.push_back(!enclosed);
+/// Does a triangle touch a box? The part of it that each side leaves, one after the other (Sutherland &
+/// Hodgman 1974).
+bool touches(std::vector<glm::dvec3> polygon, const glm::dvec3& lowest, const glm::dvec3& highest) {
+    for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+        const int axis = side / 2;
+        const auto within = [&](const glm::dvec3& p) { // above 0: by how much
+            return side % 2 ? highest[axis] - p[axis] : p[axis] - lowest[axis];
+        };
+        std::vector<glm::dvec3> left;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+            const double atA = within(a), atB = within(b);
+            if (atA >= 0)
+                left.push_back(a);
+            if ((atA < 0) != (atB < 0))
+                left.push_back(a + (b - a) * (atA / (atA - atB)));
+        }
+        polygon = std::move(left);
     }
-    return outermost;
+    return !polygon.empty();
 }
 
 class CellChoice {
@@ -54,9 +57,7 @@ public:
         const glm::dvec3 centre = lattice_.toWorld(glm::dvec3(cell.grid - lattice_.centre) + glm::dvec3(0.5));
         if (region.kind == MaterialRegion::Kind::place)
             return region.place.contains(centre);
-        if (outermost_.empty())
-            outermost_ = outermostCells(lattice_);
-        const bool always = outermost_[index] && region.from == 0;
+        const bool always = region.from == 0 && isOutermost(index);
         const auto closest =
             !always && region.depth ? tree().closest(centre, *region.depth) : tree().closest(centre);
         if (!closest)
@@ -93,6 +94,25 @@ private:
         return *tree_;
     }
 
+    /// Does the surface touch the cell?
+    bool isOutermost(std::size_t index) {
+        const LatticeCell& cell = lattice_.cells[index];
+        if (cell.fill < 255)
+            return true;
+        const double rounding = 1e-9; // of a surface on the cell's face
+        const glm::dvec3 corner(cell.grid - lattice_.centre);
+        const glm::dvec3 lowest = lattice_.toWorld(corner - rounding),
+                         highest = lattice_.toWorld(corner + 1.0 + rounding);
+        bool touched = false;
+        tree().overlapping(lowest, highest, [&](std::uint32_t triangle) {
+            const glm::uvec3 face = metres_.faces[triangle];
+            touched = touched || touches({metres_.positions[face.x], metres_.positions[face.y],
+                                          metres_.positions[face.z]},
+                                         lowest, highest);
+        });
+        return touched;
+    }
+
     bool isPainted(const MaterialRegion& region, const TriangleTree::Closest& closest) const {
         const glm::uvec3 face = metres_.faces[closest.triangle];
         std::uint32_t nearest = face.x;
@@ -105,10 +125,8 @@ private:
 
     const Lattice& lattice_;
     const TriangleMesh& metres_;
-    double reach_; // m: of a ray that leaves the organ
-    // Once a region asks for the surface:
-    std::unique_ptr<TriangleTree> tree_;
-    std::vector<bool> outermost_;
+    double reach_;                       // m: of a ray that leaves the organ
+    std::unique_ptr<TriangleTree> tree_; // once a region asks for the surface
 };
 
 } // namespace

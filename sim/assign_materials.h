@@ -16,7 +16,7 @@ namespace serosa::sim {
 /// Gives each cell the material of the last region that holds it; 0 where none does. A region of a place
 /// holds a cell whose centre it contains. A layer holds a cell whose centre lies more than `from` and at most
 /// `depth` below the surface (walls of cavities among it); one that begins at the surface holds all outermost
-/// cells (partly filled, or with an outer face), however thin it is. A painted region holds cells in the same
+/// cells, those that the surface touches, however thin it is. A painted region holds cells in the same
 /// way, but only those whose nearest point of the surface is painted: the vertex next to it has the colour.
 /// \param metres the closed surface that the lattice was built from, m.
 /// \param position what a message about a line of the scene begins with: "scene.toml:12: ".

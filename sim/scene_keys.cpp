@@ -219,7 +219,7 @@ std::vector<SceneKey> otherKeys() {
         word("look", "mapping", {"one-to-one", "triangle", "curvature"}, "\"curvature\"",
              "how the surface follows the lattice (MS05 3.2, 3.3)"),
         word("look", "colour", {"tissue", "dynamic-normal", "material"}, "\"tissue\"",
-             "what the surface is coloured by; material: each vertex by the material of the nearest cell"),
+             "what the surface is coloured by; material: by the material of the cell at each vertex"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw the tools"),
