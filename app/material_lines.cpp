@@ -67,7 +67,8 @@ std::vector<MaterialLine> materialLines(const sim::Organ& organ, const sim::Latt
         lines.push_back(
             {materialName(organ, i), "young " + shortNumber(material.young / 1e3) + " kPa, poisson " +
                                          shortNumber(material.poisson) + ", " + grouped(amounts[i].cells) +
-                                         " cells, " + shortNumber(1e6 * amounts[i].volume) + " ml, " +
+                                         (amounts[i].cells == 1 ? " cell, " : " cells, ") +
+                                         shortNumber(1e6 * amounts[i].volume) + " ml, " +
                                          shortNumber(1e3 * amounts[i].mass) + " g" + remarks(material)});
     }
     return lines;

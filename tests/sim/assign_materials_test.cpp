@@ -104,6 +104,23 @@ TEST_F(AssignMaterials, LayersAreShellsOfTheirDepth) {
     }
 }
 
+// What lies outside of the surface is not below it, however far away.
+TEST_F(AssignMaterials, NoLayerBelowTheSurfaceHoldsWhatLiesOutside) {
+    amounts({layer(1e-5, 1)});
+    std::size_t outside = 0;
+    for (const LatticeCell& cell : lattice_.cells) {
+        const double radius =
+            glm::length(lattice_.toWorld(glm::dvec3(cell.grid - lattice_.centre) + glm::dvec3(0.5)));
+        if (radius < kRadius - 5e-5) { // the ball's facets lie within that
+            EXPECT_EQ(cell.material, 1) << radius;
+        } else if (radius > kRadius) {
+            EXPECT_EQ(cell.material, 0) << radius;
+            ++outside;
+        }
+    }
+    EXPECT_GT(outside, 100u);
+}
+
 // A layer thinner than a cell: all cells at the surface and no other, whether they are partly filled or the
 // surface lies on their faces.
 TEST_F(AssignMaterials, ThinLayersAreOneCellThick) {
