@@ -3,6 +3,7 @@
 
 #include "app/run.h"
 
+#include "app/material_lines.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/run_report.h"
@@ -308,6 +309,11 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
     out << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
         << grouped(parts.lattice.cells.size()) << " cells, spacing "
         << shortNumber(1e3 * parts.lattice.spacing) << " mm\n";
+    if (!plainTissue(organ))
+        for (const MaterialLine& line : materialLines(organ, parts.lattice))
+            out << "material " << line.name << ": " << line.text << "\n";
+    for (const std::string& note : materialNotes(organ, parts.lattice))
+        out << "note: " << note << "\n";
     if (parts.solver)
         out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "

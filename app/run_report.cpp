@@ -226,6 +226,12 @@ std::string runReport(const Json& summary, const RunPictures& pictures, const st
     beginSection(page, "setup", "What was simulated");
     writeOrganTables(page, summary);
     page.close();
+    if (std::ranges::any_of(organsOf(summary),
+                            [](const Json& organ) { return organ.contains("materials"); })) {
+        beginSection(page, "materials", "Materials");
+        writeMaterialTable(page, summary);
+        page.close();
+    }
     beginSection(page, "program", "Scene, program and machine");
     writeProgramTable(page, summary);
     page.close();

@@ -2,6 +2,7 @@
 
 #include "app/run_setup.h"
 
+#include "app/material_lines.h"
 #include "app/pose.h"
 #include "app/solver_choice.h"
 
@@ -68,6 +69,8 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
 /// Lattice, fixed nodes and time step: all that needs no context.
 Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
     SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres, scene.file));
+    if (scene.look.colour == sim::SurfaceColour::material)
+        parts.surface.metres.colours = materialColours(parts.lattice, parts.surface.metres);
     parts.setup.lattice = &parts.lattice;
     parts.setup.tissue = organ.tissue;
     parts.setup.gravity = scene.gravity;

@@ -2,8 +2,10 @@
 
 #include "app/summary.h"
 
+#include "app/material_lines.h"
 #include "app/version.h"
 #include "shaders/shared_constants.h"
+#include "sim/assign_materials.h"
 #include "sim/scene_keys.h"
 
 #include <sys/resource.h>
@@ -38,6 +40,32 @@ Json repairJson(const sim::RepairReport& repair) {
             {"stray_vertices_removed", repair.strayVertices}};
 }
 
+Json materialsJson(const sim::Organ& organ, const sim::Lattice& lattice) {
+    const std::vector<sim::MaterialAmount> amounts = sim::materialAmounts(lattice, organ.tissue);
+    Json materials = Json::array();
+    for (std::size_t i = 0; i < amounts.size(); ++i) {
+        const sim::Material& material = organ.tissue.material(i);
+        Json json = {{"name", materialName(organ, i)},
+                     {"young_Pa", material.young},
+                     {"poisson", material.poisson},
+                     {"density_kg_m3", material.density},
+                     {"damping_time_s", material.dampingTime}};
+        for (const sim::CurvePoint& point : material.curve)
+            json["curve"].push_back({{"strain", point.strain}, {"stress_Pa", point.stress}});
+        if (material.strainLimit > 0)
+            json["strain_limit"] = material.strainLimit;
+        if (material.fibrous()) {
+            json["fibre"] = vec(material.fibre);
+            json["fibre_young_Pa"] = material.fibreYoung;
+        }
+        json["cells"] = amounts[i].cells;
+        json["volume_m3"] = amounts[i].volume;
+        json["mass_kg"] = amounts[i].mass;
+        materials.push_back(std::move(json));
+    }
+    return materials;
+}
+
 Json organJson(const sim::Organ& organ, const OrganRecord& record) {
     const sim::Tissue& tissue = organ.tissue;
     Json json = {{"name", organ.name},
@@ -49,7 +77,8 @@ Json organJson(const sim::Organ& organ, const OrganRecord& record) {
                  {"poisson", tissue.poisson},
                  {"density_kg_m3", tissue.density},
                  {"damping_time_s", tissue.dampingTime},
-                 {"air_drag_1_s", tissue.airDrag}};
+                 {"air_drag_1_s", tissue.airDrag},
+                 {"materials", materialsJson(organ, *record.lattice)}};
     if (organ.upAxis != sim::UpAxis::y)
         json["up_axis"] = wordOf("organ", "up_axis", int(organ.upAxis));
     if (record.repair)

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kStepsASpacing = 85, kOutermost = -2, kInnermost = 1;
 
+} // namespace
+
 bool isInside(const TriangleTree& tree, const glm::dvec3& p, double reach) {
     // Along no axis and no diagonal of the grid, so that it seldom meets an edge.
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.8713, 0.3391, 0.3549)) * reach;
@@ -19,8 +21,6 @@ bool isInside(const TriangleTree& tree, const glm::dvec3& p, double reach) {
     tree.allHits(p, direction, 1, [&](const TriangleTree::Hit& hit) { winding += hit.front ? -1 : 1; });
     return winding > 0;
 }
-
-} // namespace
 
 std::uint8_t depthStep(double depth) {
     return std::uint8_t(

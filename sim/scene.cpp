@@ -1,4 +1,4 @@
-// What a scene says beyond its file: regions, number of frames, the scene made of a model alone, and rules
+// What a scene says beyond its file: number of frames, the scene made of a model alone, and rules
 // over all.
 
 #include "sim/scene.h"
@@ -13,18 +13,6 @@ namespace serosa::sim {
 
 namespace {
 constexpr double kMostFrames = 1e6;
-}
-
-bool FixedRegion::contains(const glm::dvec3& world) const {
-    switch (shape) {
-    case Shape::halfSpace:
-        return below ? world[axis] < *below : world[axis] > *above;
-    case Shape::box:
-        return glm::all(glm::greaterThanEqual(world, lowest)) && glm::all(glm::lessThanEqual(world, highest));
-    case Shape::sphere:
-        return glm::distance(world, centre) <= radius;
-    }
-    return false;
 }
 
 std::string organFileName(const Organ& organ) {

@@ -132,8 +132,8 @@ struct StableStep {
     double formulaRate2 = 0;  // of the endless lattice of material 0: (12 + 4 bulkShare) k/m
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used
-    int stepsPerFrame = 0;
-    double timeStep = 0; // s: frame time / stepsPerFrame
+    int stepsPerFrame = 0;    // 1e9 at most
+    double timeStep = 0;      // s: frame time / stepsPerFrame
 };
 /// Largest stable explicit step for a frame of `frameTime` seconds.
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime);

@@ -28,6 +28,7 @@ constexpr double kEndlessLattice = 12, kEndlessLatticeBulk = 4; // omega^2 / (k/
 // step, at sqrt(2) 4:1; an undamped ball with random velocities blows up at 0.85 of the bound. 0.7 keeps
 // every mode below both.
 constexpr double kMargin = 0.7;
+constexpr double kMostSteps = 1e9; // a frame; more cannot be counted
 // The iteration approaches from below.
 constexpr double kIterationSlack = 1.02;
 constexpr std::size_t kIterations = 80;
@@ -220,7 +221,8 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     const double damped = step.dampingRate / step.stiffestRate2;
     step.bound = std::sqrt(damped * damped + 4 / step.stiffestRate2) - damped;
     step.margin = kMargin;
-    step.stepsPerFrame = int(std::ceil(frameTime / (kMargin * step.bound)));
+    const double steps = std::ceil(frameTime / (kMargin * step.bound));
+    step.stepsPerFrame = steps < kMostSteps ? int(steps) : int(kMostSteps);
     step.timeStep = frameTime / step.stepsPerFrame;
     return step;
 }

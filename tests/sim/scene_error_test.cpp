@@ -113,6 +113,10 @@ std::vector<BadScene> badScenes() {
          tool("keys = [{ t = \"1 s\", at = [\"0 m\", \"0 m\", \"0 m\"] },\n { t = \"1 s\", at = [\"0 m\", "
               "\"0 m\", \"0 m\"] }]"),
          "7:8", "times must increase"},
+        {"KeysBackwards",
+         tool("keys = [{ t = \"1 s\", at = [\"0 m\", \"0 m\", \"0 m\"] },\n { t = \"0.5 s\", at = [\"0 m\", "
+              "\"0 m\", \"0 m\"] }]"),
+         "7:8", "times must increase"},
         {"KeysOfNumbers", tool("keys = [1, 2]"), "6:9", "expected an array of { t"},
         {"CameraHeightPerspective", camera("height = \"1 m\""), "6:10", "orthographic"},
         {"CameraFovOrthographic", camera("projection = \"orthographic\"\nfov = \"30 deg\""), "7:7",
