@@ -40,6 +40,13 @@ std::string solverOf(const sim::Snapshot& snapshot) {
     return kPose;
 }
 
+/// A file may hold any text.
+std::string printable(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
 } // namespace
 
 std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, const sim::Organ& organ,
@@ -121,20 +128,22 @@ void describeStart(const sim::Snapshot& snapshot, const RunOptions& options, con
 
 Result<int> inspectSnapshot(const std::filesystem::path& file, std::ostream& out) {
     SEROSA_ASSIGN(const sim::Snapshot snapshot, sim::readSnapshot(file));
-    out << "snapshot            of serosa " << snapshot.program << ", made on " << snapshot.machine << "\n"
-        << "frame               " << snapshot.frame << ", " << siText(snapshot.time(), "s") << " at "
-        << shortNumber(snapshot.frameRate) << " Hz\n";
+    const auto line = [&out](std::string name, const std::string& text) {
+        name.resize(std::max<std::size_t>(name.size() + 1, 20), ' ');
+        out << printable(name + text) << "\n";
+    };
+    line("snapshot", "of serosa " + snapshot.program + ", made on " + snapshot.machine);
+    line("frame", std::to_string(snapshot.frame) + ", " + siText(snapshot.time(), "s") + " at " +
+                      shortNumber(snapshot.frameRate) + " Hz");
     for (const sim::OrganSnapshot& organ : snapshot.organs) {
         sim::CutList cuts;
         cuts.assign(organ.cuts);
-        out << "organ               " << organ.name << ": " << grouped(organ.state.positions.size())
-            << " nodes, step " << organ.state.step << " of " << organ.solver << ", " << cuts.strokes()
-            << " strokes\n"
-            << "state hash          " << organ.state.hash() << "\n";
+        line("organ", organ.name + ": " + grouped(organ.state.positions.size()) + " nodes, step " +
+                          std::to_string(organ.state.step) + " of " + organ.solver + ", " +
+                          std::to_string(cuts.strokes()) + " strokes");
+        line("state hash", organ.state.hash());
         for (const sim::Trait& trait : organ.traits)
-            out << "  " << trait.name
-                << std::string(std::max<std::size_t>(18, trait.name.size() + 1) - trait.name.size(), ' ')
-                << trait.value << "\n";
+            line("  " + trait.name, trait.value);
     }
     return int(exitOk);
 }

@@ -10,6 +10,7 @@
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkVector.h>
+#include <itkVersion.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -95,6 +96,10 @@ Status writeImage(const sim::DisplacementGrid& grid, const std::vector<Value>& v
 
 Status writeDisplacementImage(const sim::DisplacementGrid& grid, const fs::path& file) {
     return writeImage<itk::Vector<float, 3>>(grid, grid.vectors, file);
+}
+
+const char* imageLibraryVersion() {
+    return itk::Version::GetITKVersion();
 }
 
 Status writeNodeMask(const sim::DisplacementGrid& grid, const fs::path& file) {

@@ -17,4 +17,7 @@ Status writeDisplacementImage(const sim::DisplacementGrid& grid, const std::file
 /// The same grid with one byte a node: 1 where the lattice has a node, 0 elsewhere.
 Status writeNodeMask(const sim::DisplacementGrid& grid, const std::filesystem::path& file);
 
+/// ITK's, such as "5.2.1".
+const char* imageLibraryVersion();
+
 } // namespace serosa::app

@@ -266,7 +266,7 @@ TEST(Snapshot, anotherSceneIsRefusedWithWhatDiffers) {
     EXPECT_EQ(says("ball", "reference", setup), "fits");
     EXPECT_EQ(says("ball", "", setup), "fits");
     EXPECT_EQ(says("liver", "reference", setup),
-              "belongs to another scene: the organ is 'ball' in the snapshot, 'liver' here");
+              "belongs to another scene: the organ is \"ball\" in the snapshot, \"liver\" here");
     EXPECT_EQ(
         says("ball", "fragment", setup),
         "belongs to another solver: ball was stepped by reference, here by fragment: the bytes would not "
