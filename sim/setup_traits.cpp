@@ -79,7 +79,8 @@ std::string traitValue(const std::vector<double>& numbers, const std::string& un
     for (const double number : numbers) {
         char digits[32];
         text += text.empty() ? "" : " ";
-        text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+        text.append(digits,
+                    std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general).ptr);
     }
     return text + (unit.empty() ? "" : " " + unit);
 }

@@ -28,6 +28,8 @@ Status checkState(const OrganSnapshot& organ, const Lattice& lattice, std::size_
     for (std::size_t node = 0; node < state.connections.size(); ++node)
         if ((state.connections[node] & ~lattice.connections[node]) != 0)
             return wrong("node " + std::to_string(node) + " has a connection that the lattice has not");
+    if (!organ.cuts.empty() && organ.cuts.front().stroke.continues)
+        return wrong("the first stroke continues another");
     for (const CutLayer& layer : organ.layers)
         for (const ClearedBits& cleared : layer)
             if (cleared.node >= nodes || (cleared.bits & ~lattice.connections[cleared.node]) != 0)

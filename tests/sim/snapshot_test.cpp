@@ -205,8 +205,7 @@ TEST(Snapshot, valuesBehindAFittingChecksumAreNotBelieved) {
             if (!read)
                 continue;
             for (const OrganSnapshot& organ : read->organs) {
-                const sim::Status fits =
-                    sim::checkSnapshot(organ, organ.name, "reference", organ.traits, lattice);
+                const Status fits = sim::checkSnapshot(organ, organ.name, "reference", organ.traits, lattice);
                 if (!fits.ok())
                     continue;
                 sim::SolverSetup setup = test::plainSetup(lattice);
