@@ -89,7 +89,7 @@ void addInspect(CLI::App& app, Choice& choice) {
     addRepairFlag(*command, given->repair);
     command->footer("Example:\n  serosa inspect liver.stl --length-unit mm\n"
                     "Exit codes: 0 usable, 2 unreadable, or no closed solid.");
-    command->callback([given, &choice] {
+    command->callback([given, command, &choice] {
         choice.action = [given, command]() -> Result<int> {
             if (std::filesystem::path(given->file).extension() == ".serosa") {
                 if (command->count_all() > 1)
