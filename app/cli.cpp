@@ -92,7 +92,9 @@ void addInspect(CLI::App& app, Choice& choice) {
     command->callback([given, command, &choice] {
         choice.action = [given, command]() -> Result<int> {
             if (std::filesystem::path(given->file).extension() == ".serosa") {
-                if (command->count_all() > 1)
+                if (command->count("--length-unit") + command->count("--nodes") +
+                        command->count("--spacing") + command->count("--repair") >
+                    0)
                     return Error{"inspect takes no other options beside a snapshot: leave them out"};
                 return inspectSnapshot(given->file, std::cout);
             }

@@ -2,7 +2,6 @@
 #include "app/scene_snapshot.h"
 
 #include "app/scene_player.h"
-#include "app/si_text.h"
 #include "app/version.h"
 #include "base/check.h"
 #include "sim/byte_stream.h"
@@ -116,7 +115,7 @@ Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, cons
 void describeStart(const sim::Snapshot& snapshot, const RunOptions& options, const RunParts& parts,
                    std::ostream& out) {
     out << "goes on from " << options.from.string() << ", frame " << snapshot.frame << ", "
-        << siText(snapshot.time(), "s") << "\n";
+        << shortNumber(snapshot.time()) << " s\n";
     const std::string made = solverOf(snapshot), machine = machineOf(parts);
     if (made != kPose && made != options.solver)
         out << "note: " << made << " made the snapshot, " << options.solver
@@ -133,7 +132,7 @@ Result<int> inspectSnapshot(const std::filesystem::path& file, std::ostream& out
         out << printable(name + text) << "\n";
     };
     line("snapshot", "of serosa " + snapshot.program + ", made on " + snapshot.machine);
-    line("frame", std::to_string(snapshot.frame) + ", " + siText(snapshot.time(), "s") + " at " +
+    line("frame", std::to_string(snapshot.frame) + ", " + shortNumber(snapshot.time()) + " s at " +
                       shortNumber(snapshot.frameRate) + " Hz");
     for (const sim::OrganSnapshot& organ : snapshot.organs) {
         sim::CutList cuts;

@@ -24,7 +24,7 @@ const char kBall[] =
 const char kRest[] =
     "[[tool]]\nradius = \"30 mm\"\nkeys = [{ t = \"0 s\", at = [\"0 mm\", \"72 mm\", \"0 mm\"] },"
     " { t = \"100 ms\", at = [\"0 mm\", \"55 mm\", \"0 mm\"] }]\n"
-    "[[tool]]\nradius = \"20 mm\"\nmode = \"grasp\"\nkeys = [{ t = \"20 ms\", at = [\"40 mm\", \"0 mm\", \"0 "
+    "[[tool]]\nradius = \"30 mm\"\nmode = \"grasp\"\nkeys = [{ t = \"20 ms\", at = [\"40 mm\", \"0 mm\", \"0 "
     "mm\"] }, { t = \"130 ms\", at = [\"60 mm\", \"0 mm\", \"0 mm\"] }]\n"
     "[[cut]]\nkeys = [{ t = \"40 ms\", at = [\"-60 mm\", \"21 mm\", \"-60 mm\"], end = [\"-60 mm\", \"21 "
     "mm\", \"60 mm\"] }, { t = \"95 ms\", at = [\"20 mm\", \"18 mm\", \"-60 mm\"], end = [\"20 mm\", \"18 "
@@ -90,7 +90,7 @@ TEST_F(GlSnapshotRun, goesOnWithTheSameBytes) {
         // Without --solver: that of the snapshot.
         const ChildResult rest = run("rest", {"--force", "--from", kSnapshot});
         ASSERT_EQ(rest.exitCode, 0) << rest.err;
-        EXPECT_NE(rest.out.find("goes on from whole/snapshot_000004.serosa, frame 4, 66.67 ms\n"),
+        EXPECT_NE(rest.out.find("goes on from whole/snapshot_000004.serosa, frame 4, 0.06667 s\n"),
                   std::string::npos)
             << rest.out;
         EXPECT_EQ(rest.out.find("note: the"), std::string::npos) << rest.out;
@@ -123,8 +123,8 @@ TEST_F(GlSnapshotRun, isInspected) {
     ASSERT_EQ(run("whole").exitCode, 0);
     const ChildResult said = serosa({"inspect", kSnapshot});
     ASSERT_EQ(said.exitCode, 0) << said.err;
-    for (const char* text : {"frame               4, 66.67 ms at 60 Hz", "of fragment, ", "young",
-                             "5000 Pa", "tool 2 mode", "state hash"})
+    for (const char* text : {"frame               4, 0.06667 s at 60 Hz", "of fragment, ", "young", "5000 Pa",
+                             "tool 2 mode", "state hash"})
         EXPECT_NE(said.out.find(text), std::string::npos) << text << " is not in\n" << said.out;
     const ChildResult bad = serosa({"inspect", kSnapshot, "--nodes", "300"});
     EXPECT_EQ(bad.exitCode, 2);
