@@ -173,7 +173,7 @@ bool readOrgan(ByteReader& in, OrganSnapshot& organ) {
     return true;
 }
 
-/// Where the body stops making sense, or nothing.
+/// False: it makes no sense, at in.at() or just before.
 bool readBody(ByteReader& in, Snapshot& snapshot) {
     snapshot.program = in.text();
     snapshot.machine = in.text();
