@@ -9,6 +9,8 @@
 #include "app/run_report.h"
 #include "app/run_setup.h"
 #include "app/scene_player.h"
+#include "app/scene_snapshot.h"
+#include "app/state_files.h"
 #include "app/summary.h"
 #include "base/atomic_file.h"
 #include "gpu/gl.h"
@@ -64,9 +66,10 @@ Result<std::string> bytesOf(const std::filesystem::path& file) {
 
 class Run {
 public:
-    Run(RunParts& parts, OutputFolder& folder, const std::string& solver)
-        : parts_(parts), player_(parts), folder_(folder), frames_(parts.scene.frames()),
-          frameTime_(1 / parts.scene.frameRate) {
+    /// \param start a snapshot that belongs to the scene; null: from rest
+    Run(RunParts& parts, OutputFolder& folder, const std::string& solver, const sim::Snapshot* start)
+        : parts_(parts), player_(parts), folder_(folder), start_(start), files_(parts, player_, folder),
+          frames_(parts.scene.frames()), frameTime_(1 / parts.scene.frameRate) {
         record_.scene = parts.scene;
         record_.gl = parts.context->info();
         record_.solver = "pose";
@@ -78,6 +81,10 @@ public:
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
+        for (const double time : output.snapshotsAt)
+            files_.snapshotAt(frameAt(time));
+        for (const double time : output.displacementsAt)
+            files_.displacementAt(frameAt(time));
         for (const double time : output.sheetAt)
             sheetFrames_.insert(std::max(1, frameAt(time)));
         if (output.sheetAt.empty())
@@ -92,18 +99,23 @@ public:
         if (!surfaceFrames_.empty())
             for (std::size_t i = 0; i < parts_.organs.size(); ++i)
                 restSurfaces_.push_back(deformedPositions(i));
-        SEROSA_TRY(writeSurfaces(0));
-        sample(0);
+        if (start_)
+            player_.restore(*start_);
+        const int first = player_.frame();
+        record_.framesDone = first;
+        SEROSA_TRY(writeFiles(first));
+        sample(first);
         Progress progress("frames", frames_);
-        for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
+        for (int frame = first + 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
             SEROSA_TRY(picture(frame));
             record_.framesDone = frame;
-            const bool away = surfaceFrames_.contains(frame) && !player_.runaway().empty();
+            const bool away =
+                (surfaceFrames_.contains(frame) || files_.due(frame)) && !player_.runaway().empty();
             if (frame % kSampleEvery == 0 || frame == frames_ || away || interrupt.interrupted())
                 sample(frame);
             if (record_.end == "complete")
-                SEROSA_TRY(writeSurfaces(frame));
+                SEROSA_TRY(writeFiles(frame));
             if (interrupt.interrupted() && record_.end == "complete" && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
@@ -268,12 +280,21 @@ private:
                                                       parts_.surfaceMapping(), organ);
     }
 
+    /// All that is written of the state but pictures.
+    Status writeFiles(int frame) {
+        Stopwatch watch(record_.times.files);
+        SEROSA_TRY(writeSurfaces(frame));
+        SEROSA_TRY(files_.write());
+        record_.snapshotsWritten = files_.snapshots();
+        record_.displacementsWritten = files_.displacements();
+        return {};
+    }
+
     /// The surfaces in their files' unit, axes and vertex order: the file's own positions plus the
     /// displacement, so that rest comes out as it went in.
     Status writeSurfaces(int frame) {
         if (!surfaceFrames_.contains(frame))
             return {};
-        Stopwatch watch(record_.times.files);
         for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
             const sim::Organ& organ = parts_.scene.organs[i];
             const std::string name =
@@ -289,6 +310,8 @@ private:
     RunParts& parts_;
     ScenePlayer player_;
     OutputFolder& folder_;
+    const sim::Snapshot* start_;
+    StateFiles files_;
     int frames_;
     double frameTime_; // s
     render::CameraView camera_;
@@ -337,7 +360,7 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
         describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
     if (parts.timesLeftOut > 0)
         out << "note: " << parts.timesLeftOut
-            << " of the times in surfaces_at and sheet_at lie after the frames asked for and are left out\n";
+            << " of the times in [output] lie after the frames asked for and are left out\n";
     out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
         << parts.context->info().renderer << "\n"
         << std::flush;
@@ -345,18 +368,27 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
 
 } // namespace
 
-Result<int> runScene(const RunOptions& options, std::ostream& out) {
+Result<int> runScene(const RunOptions& given, std::ostream& out) {
+    RunOptions options = given;
     RunTimes times;
     std::optional<Stopwatch> setupWatch(times.setup), totalWatch(times.total);
     SEROSA_ASSIGN(
         OutputFolder folder,
         OutputFolder::check(options.out.empty() ? defaultOutputFolder(options) : options.out, options.force));
+    SEROSA_ASSIGN(const std::optional<sim::Snapshot> start, readStart(options, folder.path()));
     RunParts parts;
     SEROSA_TRY(prepareRun(options, parts));
+    if (start)
+        SEROSA_TRY(checkStart(*start, options, parts));
     describeSetup(parts, out);
+    if (start)
+        describeStart(*start, options, parts, out);
     SEROSA_TRY(folder.create());
 
-    Run run(parts, folder, options.solver);
+    Run run(parts, folder, options.solver, start ? &*start : nullptr);
+    if (start)
+        run.record().from = {options.from.filename().string(), int(start->frame),
+                             start->organs.front().solver};
     run.warmUp();
     setupWatch.reset();
     const InterruptGuard interrupt;
@@ -383,9 +415,12 @@ Result<int> runScene(const RunOptions& options, std::ostream& out) {
                    "take a finer lattice\n";
     if (record.end == "interrupted")
         out << "interrupted after frame " << record.framesDone << " of " << parts.scene.frames() << "\n";
-    out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten
-        << " surfaces, summary.json and report.html to " << folder.path().string()
-        << "; largest displacement " << shortNumber(1e3 * record.largestDisplacement) << " mm, "
+    out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten << " surfaces, "
+        << (record.snapshotsWritten > 0 ? std::to_string(record.snapshotsWritten) + " snapshots, " : "")
+        << (record.displacementsWritten > 0 ? std::to_string(record.displacementsWritten) + " displacements, "
+                                            : "")
+        << "summary.json and report.html to " << folder.path().string() << "; largest displacement "
+        << shortNumber(1e3 * record.largestDisplacement) << " mm, "
         << shortNumber(summary["timing"]["real_time_factor"].get<double>()) << " x real time\n";
     if (record.end == "not finite")
         return Error{run.failure(), exitCheckFailed};

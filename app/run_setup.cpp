@@ -17,7 +17,9 @@ Status applyOverrides(const RunOptions& options, sim::Scene& scene, std::size_t&
     if (options.frames) {
         scene.duration = *options.frames / scene.frameRate;
         const double end = (*options.frames + 0.5) / scene.frameRate;
-        for (std::vector<double>* times : {&scene.output.surfacesAt, &scene.output.sheetAt})
+        sim::Output& output = scene.output;
+        for (std::vector<double>* times :
+             {&output.surfacesAt, &output.snapshotsAt, &output.displacementsAt, &output.sheetAt})
             timesLeftOut += std::erase_if(*times, [end](double time) { return time > end; });
     }
     if (options.width)

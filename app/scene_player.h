@@ -5,6 +5,7 @@
 #include "app/run_setup.h"
 #include "sim/cut_list.h"
 #include "sim/lattice_state.h"
+#include "sim/snapshot.h"
 
 #include <optional>
 #include <string>
@@ -22,6 +23,10 @@ public:
     void advance();
     /// Back to rest, frame 0.
     void reset();
+    /// All of the state, after frame() frames (reads back, stalls). Takes the tools' pending impulses.
+    sim::Snapshot snapshot();
+    /// Goes on from a snapshot that belongs to the scene (app/scene_snapshot.h).
+    void restore(const sim::Snapshot& snapshot);
 
     int frame() const { return frame_; }
     double time() const { return frame_ / parts_.scene.frameRate; } // s

@@ -260,10 +260,17 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     json["frame_rate_Hz"] = scene.frameRate;
     json["frames_asked"] = scene.frames();
     json["frames"] = record.framesDone;
+    if (record.from)
+        json["from"] = {{"snapshot", record.from->snapshot},
+                        {"frame", record.from->frame},
+                        {"t_s", record.from->frame / scene.frameRate},
+                        {"solver", record.from->solver}};
     json["end"] = record.end;
     json["picture_size"] = {scene.output.width, scene.output.height};
     json["pictures"] = record.picturesWritten;
     json["surfaces"] = record.surfacesWritten;
+    json["snapshots"] = record.snapshotsWritten;
+    json["displacements"] = record.displacementsWritten;
     if (single)
         json["binding"] = bindingJson(*record.organs.front().binding);
     if (single && record.organs.front().strokes > 0)

@@ -53,12 +53,21 @@ struct OrganRecord {
     sim::PieceCount pieces;
 };
 
+/// Where a run began that did not begin at rest.
+struct RunStart {
+    std::string snapshot; // file name
+    int frame = 0;
+    std::string solver; // that made it
+};
+
 struct RunRecord {
     sim::Scene scene;
     std::string solver; // of the first organ that is simulated; "pose" where none is
     gpu::ContextInfo gl;
     std::vector<OrganRecord> organs; // in the scene's order
     int framesDone = 0, picturesWritten = 0, surfacesWritten = 0;
+    int snapshotsWritten = 0, displacementsWritten = 0;
+    std::optional<RunStart> from;
     std::string end = "complete";      // or "interrupted", "not finite"
     double largestDisplacement = 0;    // m, over the samples and organs
     std::vector<EnergySample> samples; // sums over the organs

@@ -36,7 +36,8 @@ std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
     const double end = (scene.frames() + 0.5) / scene.frameRate;
     const Output& output = scene.output;
     for (const auto& [key, times] :
-         {std::pair{"surfaces_at", &output.surfacesAt}, std::pair{"sheet_at", &output.sheetAt}})
+         {std::pair{"surfaces_at", &output.surfacesAt}, std::pair{"snapshots_at", &output.snapshotsAt},
+          std::pair{"displacements_at", &output.displacementsAt}, std::pair{"sheet_at", &output.sheetAt}})
         for (const double time : *times)
             if (time > end)
                 return SceneProblem{"output", key,

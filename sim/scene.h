@@ -82,9 +82,12 @@ struct Look {
     glm::dvec3 sectionNormal{0, 0, 1};                  // this points, is cut away from the picture
 };
 
+enum class ImageFormat { nrrd, mha };
 struct Output {
-    int width = 960, height = 960;       // pixels: size = [960, 960]
-    std::vector<double> surfacesAt;      // s
+    int width = 960, height = 960;                    // pixels: size = [960, 960]
+    std::vector<double> surfacesAt;                   // s
+    std::vector<double> snapshotsAt, displacementsAt; // s
+    ImageFormat displacementFormat = ImageFormat::nrrd;
     int frameEvery = 1;                  // every how many frames a picture is written
     int sheetColumns = 4, sheetRows = 3; // contact sheet
     std::vector<double> sheetAt;         // s; empty: evenly spread

@@ -158,6 +158,11 @@ Status readOutput(const SceneTable& table, Scene& scene) {
     output.width = size.x;
     output.height = size.y;
     SEROSA_TRY(table.read("surfaces_at", output.surfacesAt));
+    SEROSA_TRY(table.read("snapshots_at", output.snapshotsAt));
+    SEROSA_TRY(table.read("displacements_at", output.displacementsAt));
+    SEROSA_TRY(table.readWord("displacement_format", output.displacementFormat));
+    if (output.displacementFormat != ImageFormat::nrrd && output.displacementsAt.empty())
+        return table.errorAt("displacement_format", "has no effect without 'displacements_at': remove it");
     SEROSA_TRY(table.read("frame_every", output.frameEvery));
     SEROSA_TRY(table.read("sheet_columns", output.sheetColumns));
     SEROSA_TRY(table.read("sheet_rows", output.sheetRows));

@@ -37,6 +37,14 @@ namespace serosa::sim {
 
 class StateTextures; // sim/state_textures.h
 
+/// Connection bits of one node that a stroke cleared.
+struct ClearedBits {
+    std::uint32_t node = 0, bits = 0;
+    friend bool operator==(const ClearedBits&, const ClearedBits&) = default;
+};
+/// What one stroke (with the parts that continue it) cleared: nodes ascending, bits not 0.
+using CutLayer = std::vector<ClearedBits>;
+
 /// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its
 /// lifetime.
 struct SolverSetup {
@@ -73,6 +81,10 @@ public:
     virtual bool undoCut();
     /// Strokes so far can no longer be undone: after a state from elsewhere was set.
     virtual void forgetCuts();
+    /// What undoCut() gives back, stroke by stroke, oldest first; reads back (stalls).
+    virtual std::vector<CutLayer> cutLayers() const;
+    /// Replaces it, after the state that it belongs to was set. Errors: as cut.
+    virtual Status setCutLayers(const std::vector<CutLayer>& layers);
     /// Labels of the pieces (sim/pieces.h), one a node; reads back. Errors: as cut.
     virtual Result<std::vector<std::uint32_t>> pieces() const;
     virtual const Lattice& lattice() const = 0;

@@ -23,6 +23,10 @@ public:
     Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
     bool undoCut() override { return cuts_.undo(textures_); }
     void forgetCuts() override { cuts_.forget(); }
+    std::vector<CutLayer> cutLayers() const override { return cuts_.layers(textures_); }
+    Status setCutLayers(const std::vector<CutLayer>& layers) override {
+        return cuts_.setLayers(textures_, layers);
+    }
     Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
 
 protected:
