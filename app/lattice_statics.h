@@ -5,6 +5,7 @@
 // solver's forces.
 
 #include "sim/lattice.h"
+#include "sim/material.h"
 
 #include <glm/glm.hpp>
 
@@ -19,6 +20,8 @@ glm::dvec3 nodeVector(const Eigen::VectorXd& v, std::size_t node);
 
 /// \param bulk (lambda - mu) / mu of the volumetric term
 Eigen::SparseMatrix<double> latticeStiffness(const sim::Lattice& lattice, double bulk);
+/// Of several materials, each at the first slope of its curve; k is that of material 0.
+Eigen::SparseMatrix<double> latticeStiffness(const sim::Lattice& lattice, const sim::Tissue& tissue);
 
 /// A linear static problem: loads, nodes that are held, and stiff springs that prescribe displacements along
 /// directions.
@@ -36,8 +39,11 @@ public:
 
     /// Displacements in h, by conjugate gradients to 1e-8 of the load.
     Eigen::VectorXd solve(double bulk) const;
+    Eigen::VectorXd solve(const sim::Tissue& tissue) const;
 
 private:
+    Eigen::VectorXd solve(std::vector<Eigen::Triplet<double>> entries) const;
+
     const sim::Lattice& lattice_;
     std::vector<Eigen::Triplet<double>> extra_; // stiffness beyond the lattice's
     Eigen::VectorXd load_;

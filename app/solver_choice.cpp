@@ -51,7 +51,6 @@ const std::vector<std::string>& solverNames() {
 }
 
 Made makeSolver(const std::string& name, const sim::SolverSetup& setup, int layout) {
-    SEROSA_TRY(sim::supportsTissue(name, setup.tissue));
     for (const Entry& entry : entries())
         if (entry.name == name)
             return entry.make(setup, layout);

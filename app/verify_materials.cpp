@@ -1,9 +1,10 @@
 // Group `materials`: what tissue of a given Young's modulus and Poisson's ratio does against the theory of
 // elasticity. Statics by a linear solution in double with the same springs and cells (tied to the reference
 // solver by its forces); large strains and float32 by the solvers themselves.
+#include "app/verify_materials.h"
+
 #include "app/elastic_measures.h"
 #include "app/organ_setup.h"
-#include "app/verify.h"
 #include "models/phantom.h"
 #include "models/simple_shapes.h"
 #include "shaders/shared_constants.h"
@@ -26,15 +27,6 @@ std::string nameOf(double poisson) {
     return "nu " + shortNumber(poisson);
 }
 
-sim::Tissue tissueOf(const VerifyOptions& options, double poisson, double young = 5000) {
-    sim::Tissue tissue;
-    tissue.poisson = poisson;
-    tissue.young = young;
-    if (options.inject.fault == Fault::stiffness)
-        tissue.young *= options.inject.factor;
-    return tissue;
-}
-
 /// Tension, bending, torsion and pressure of beams and blocks 10 cells thick, aligned and in three random
 /// turns.
 void beams(const VerifyOptions& options, CheckList& checks) {
@@ -48,7 +40,7 @@ void beams(const VerifyOptions& options, CheckList& checks) {
                 ((turn == 0 && poisson > 0.3 && poisson < 0.48) || (turn > 1 && poisson != 0.45)))
                 continue;
             const std::string piece = "beam, " + name + ", " + nameOf(poisson);
-            const sim::Tissue tissue = tissueOf(options, poisson);
+            const sim::Tissue tissue = verifiedTissue(options, poisson);
             const BeamMeasures measures = measureBeam(beam, tissue, true);
             checks.equalRel(piece + ": Young's modulus / given", measures.youngShare, 1, 0.03, "1");
             checks.equalRel(piece + ": Poisson's ratio", measures.poisson, poisson, 0.03, "1");
@@ -68,7 +60,7 @@ void forces(const VerifyOptions& options, CheckList& checks) {
     for (const double poisson : {0.35, 0.49}) {
         SolverSetup setup;
         setup.lattice = &beam.lattice;
-        setup.tissue = tissueOf(options, poisson);
+        setup.tissue = verifiedTissue(options, poisson);
         setup.tissue.dampingTime = 0;
         setup.timeStep = sim::stableStep(beam.lattice, setup.tissue, 1).timeStep;
         checks.atMost("beam, " + nameOf(poisson) + ": reference force against the linear stiffness",
@@ -83,7 +75,7 @@ void cantilevers(const VerifyOptions& options, CheckList& checks) {
             if (cells == 10 && !options.full && poisson != 0.45)
                 continue;
             const Beam beam = makeBeam(cells, 6 * cells, glm::dmat3(1), kSpacing);
-            const double share = cantileverSagShare(beam, tissueOf(options, poisson));
+            const double share = cantileverSagShare(beam, verifiedTissue(options, poisson));
             errors.push_back(std::abs(share - 1));
             if (cells > 4)
                 checks.equalRel("cantilever " + std::to_string(cells) + " cells thick, " + nameOf(poisson) +
@@ -103,7 +95,7 @@ Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
     const glm::dvec3 middle = ball.toWorld(0.5 * glm::dvec3(ball.nodeDims - 1) - glm::dvec3(ball.centre));
     SolverSetup setup;
     setup.lattice = &ball;
-    setup.tissue = tissueOf(options, 0.49);
+    setup.tissue = verifiedTissue(options, 0.49);
     setup.tissue.dampingTime = 0.002;
     setup.tissue.airDrag = 20;
     setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
@@ -136,7 +128,7 @@ Status fragmentAgainstReference(const VerifyOptions& options, CheckList& checks)
     SEROSA_ASSIGN(const Lattice heart, models::phantomLattice("heart", 20000, options.full ? 20000 : 6000));
     SolverSetup setup;
     setup.lattice = &heart;
-    setup.tissue = tissueOf({}, 0.45);
+    setup.tissue = verifiedTissue({}, 0.45);
     setup.tissue.recovery = true;
     setup.gravity = {0, -9.81, 0};
     setup.timeStep = sim::stableStep(heart, setup.tissue, 1.0 / 60).timeStep;
@@ -179,7 +171,7 @@ Status momentum(const VerifyOptions& options, CheckList& checks) {
     SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 3000));
     SolverSetup setup;
     setup.lattice = &ball;
-    setup.tissue = tissueOf(options, 0.49);
+    setup.tissue = verifiedTissue(options, 0.49);
     setup.tissue.recovery = true;
     setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
     LatticeState state = sim::restState(ball);
@@ -206,10 +198,20 @@ Status momentum(const VerifyOptions& options, CheckList& checks) {
 
 } // namespace
 
+sim::Tissue verifiedTissue(const VerifyOptions& options, double poisson, double young) {
+    sim::Tissue tissue;
+    tissue.poisson = poisson;
+    tissue.young = young;
+    if (options.inject.fault == Fault::stiffness)
+        tissue.young *= options.inject.factor;
+    return tissue;
+}
+
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks) {
     beams(options, checks);
     forces(options, checks);
     cantilevers(options, checks);
+    SEROSA_TRY(verifyComposites(options, checks));
     SEROSA_TRY(squeezedBall(options, checks));
     SEROSA_TRY(momentum(options, checks));
     return fragmentAgainstReference(options, checks);

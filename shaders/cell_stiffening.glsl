@@ -2,6 +2,7 @@
 // cell_terms.glsl where SRS_STIFFENING is defined.
 uniform float u_cellSprings[SRS_MATERIALS * 9]; // MaterialShares::spring, by material and direction pair
 uniform float u_youngs[SRS_MATERIALS];          // E h / k
+uniform float u_bends[SRS_MATERIALS];           // MaterialShares::bend
 // Turns of the stress-strain curves, SRS_CURVE_BREAKS a material: strains, and what the slope gains there (0: none).
 uniform float u_breakStrains[SRS_MATERIALS * SRS_CURVE_BREAKS];
 uniform float u_breakGains[SRS_MATERIALS * SRS_CURVE_BREAKS];
@@ -34,13 +35,18 @@ float springEnergy(uint material, uint bits[8], vec3 p[8]) {
     return 0.125 * energy;
 }
 
-/// Secant over first slope of the material's curve. \param energy of the cell over its fill, in units of k h^2
+/// Stress of the material's curve over that of the springs alone. \param energy of the cell over its fill, in units of k h^2
 float stiffening(uint material, float energy) {
-    float strain = sqrt(2.0 * energy / u_youngs[material]), factor = 1.0;
+    energy *= 2.0 / u_youngs[material];
+    float strain = sqrt(energy), bend = u_bends[material], factor = 1.0;
+    for (int i = 0; i < SRS_STRAIN_ITERATIONS; ++i) // MaterialShares::tensionStrain
+        strain -= (strain * strain * (1.0 + bend * strain) - energy) / max(strain * (2.0 + 3.0 * bend * strain), 1e-30);
+    if (u_breakGains[int(material) * SRS_CURVE_BREAKS] == 0.0) // no curve
+        return 1.0;
     for (int i = 0; i < SRS_CURVE_BREAKS; ++i) {
         int at = int(material) * SRS_CURVE_BREAKS + i;
         if (strain > u_breakStrains[at])
             factor += u_breakGains[at] * (1.0 - u_breakStrains[at] / max(strain, 1e-20));
     }
-    return factor;
+    return factor / (1.0 + 1.5 * bend * strain);
 }

@@ -59,6 +59,8 @@
 // Materials (sim/material.h)
 #define SRS_MAX_MATERIALS 16      // an organ: 4 bits a cell
 #define SRS_CURVE_BREAKS 8        // turns of a stress-strain curve, the strain limit's among them
+#define SRS_SPRING_BEND(poisson) (1.75 * (0.45 - (poisson))) // sim/stiffening.h
+#define SRS_STRAIN_ITERATIONS 4
 #define SRS_LIMIT_STIFFENING 10.0 // tangent beyond a strain limit over the tangent before it
 
 // Surface mapping modes, a vertex

@@ -10,12 +10,13 @@ namespace serosa::sim {
 namespace {
 
 void setMaterials(gpu::Program& program, const Tissue& tissue) {
-    std::vector<float> bulks, recoveries, springs, youngs, strains, gains;
+    std::vector<float> bulks, recoveries, springs, youngs, bends, strains, gains;
     for (const MaterialShares& material : materialShares(tissue)) {
         bulks.push_back(float(material.bulk));
         recoveries.push_back(float(material.recovery));
         springs.insert(springs.end(), material.spring.begin(), material.spring.end());
         youngs.push_back(float(material.young));
+        bends.push_back(float(material.bend));
         for (std::size_t i = 0; i < SRS_CURVE_BREAKS; ++i) {
             const CurveBreak turn = i < material.breaks.size() ? material.breaks[i] : CurveBreak{};
             strains.push_back(float(turn.strain));
@@ -28,6 +29,7 @@ void setMaterials(gpu::Program& program, const Tissue& tissue) {
         return;
     program.set("u_cellSprings", std::span<const float>(springs));
     program.set("u_youngs", std::span<const float>(youngs));
+    program.set("u_bends", std::span<const float>(bends));
     program.set("u_breakStrains", std::span<const float>(strains));
     program.set("u_breakGains", std::span<const float>(gains));
 }

@@ -6,40 +6,23 @@
 #define SEROSA_SIM_CPU_KERNEL_INL_H
 #endif
 
+#include "sim/cpu_cells-inl.h"
+#include "sim/cpu_gather-inl.h"
 #include "sim/cpu_kernel.h"
-
-#include <hwy/highway.h>
+#include "sim/cpu_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace serosa::sim::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-// Rows of organs are short: longer vectors would hold mostly pads.
-using Lanes = hn::CappedTag<float, 16>;
-using Vec = hn::Vec<Lanes>;
-
-// Rows of kCpuRows by direction.
-enum Row { kSame = -1, kY, ky, kZ, kz, kYZ, kyz, kYz, kyZ };
-
-/// 1/sqrt(q), and exactly 1 at q = 1: the rest state then has no force at all.
-HWY_INLINE Vec reciprocalRoot(Lanes d, Vec q) {
-#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
-    // 12 bits, then Halley's step with fused products: within an ulp, and cheaper than a root and a division.
-    const Vec y = hn::ApproximateReciprocalSqrt(q);
-    const Vec error = hn::NegMulAdd(hn::Mul(q, y), y, hn::Set(d, 1.0f));
-    return hn::MulAdd(hn::Mul(y, error), hn::MulAdd(error, hn::Set(d, 0.375f), hn::Set(d, 0.5f)), y);
-#else
-    return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(q));
-#endif
-}
+/// Along springs: none, in one proportion to all weights, or by a constant of each spring's own.
+enum class Damping { none, shared, own };
 
 /// Adds one spring of each lane: to the force in units of k h, and its direction to the sum of eq. 3 (times
 /// the rest length).
-template <bool kDamped, bool kNormals, bool kDiagonal>
-HWY_INLINE void addSpring(Lanes d, const CpuStep& step, const float* HWY_RESTRICT weight, std::size_t other,
-                          Vec x, Vec y, Vec z, Vec ux, Vec uy, Vec uz, Vec& fx, Vec& fy, Vec& fz, Vec& nx,
-                          Vec& ny, Vec& nz) {
+template <Damping kDamping, bool kNormals, bool kDiagonal>
+HWY_INLINE void addSpring(Lanes d, const CpuStep& step, const float* HWY_RESTRICT weight,
+                          const float* HWY_RESTRICT damper, std::size_t other, Vec x, Vec y, Vec z, Vec ux,
+                          Vec uy, Vec uz, Vec& fx, Vec& fy, Vec& fz, Vec& nx, Vec& ny, Vec& nz) {
     const Vec w = hn::Load(d, weight);
     const Vec dx = hn::Sub(x, hn::LoadU(d, step.positions[0] + other));
     const Vec dy = hn::Sub(y, hn::LoadU(d, step.positions[1] + other));
@@ -50,15 +33,22 @@ HWY_INLINE void addSpring(Lanes d, const CpuStep& step, const float* HWY_RESTRIC
     // Rest length over length.
     const Vec stretch = reciprocalRoot(d, hn::Max(length2, hn::Set(d, 1e-12f)));
     Vec pull = hn::Sub(stretch, hn::Set(d, 1.0f));
-    if constexpr (kDamped) {
+    if constexpr (kDamping == Damping::own)
+        pull = hn::Mul(w, pull);
+    if constexpr (kDamping != Damping::none) {
         const Vec vx = hn::Sub(ux, hn::LoadU(d, step.increments[0] + other));
         const Vec vy = hn::Sub(uy, hn::LoadU(d, step.increments[1] + other));
         const Vec vz = hn::Sub(uz, hn::LoadU(d, step.increments[2] + other));
         const Vec along = hn::MulAdd(dz, vz, hn::MulAdd(dy, vy, hn::Mul(dx, vx)));
-        const Vec damping = hn::Set(d, kDiagonal ? 0.5f * step.damping : step.damping);
+        Vec damping;
+        if constexpr (kDamping == Damping::own)
+            damping = hn::Load(d, damper);
+        else
+            damping = hn::Set(d, kDiagonal ? 0.5f * step.damping : step.damping);
         pull = hn::NegMulAdd(hn::Mul(damping, along), hn::Mul(stretch, stretch), pull);
     }
-    pull = hn::Mul(w, pull);
+    if constexpr (kDamping != Damping::own)
+        pull = hn::Mul(w, pull);
     fx = hn::MulAdd(pull, dx, fx);
     fy = hn::MulAdd(pull, dy, fy);
     fz = hn::MulAdd(pull, dz, fz);
@@ -147,26 +137,38 @@ HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t sl
     changed = hn::Or(changed, touched);
 }
 
-template <bool kDamped, bool kNormals>
+/// \param kCells what a pass over cells left enters; plain springs have a loop without it.
+template <Damping kDamping, bool kNormals, bool kCells>
 void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBlock,
                double* HWY_RESTRICT impulses) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
+    HWY_ALIGN float stiffened[kCells ? SRS_NEIGHBOURS * kMostLanes : 1];
     for (std::size_t block = firstBlock; block < lastBlock; ++block) {
         const std::size_t slot = step.first + block * lanes;
-        const float* HWY_RESTRICT weights = step.weights + block * SRS_NEIGHBOURS * lanes;
+        const float* weights = step.weights + block * SRS_NEIGHBOURS * lanes;
+        const float* dampers =
+            kDamping == Damping::own ? step.dampers + block * SRS_NEIGHBOURS * lanes : nullptr;
         const std::int32_t* rows = step.rows + block * 8;
+        if constexpr (kCells) {
+            if (step.gains[0]) {
+                if (step.gains[1])
+                    weighSprings<true>(d, step, slot, rows, stiffened);
+                else
+                    weighSprings<false>(d, step, slot, rows, stiffened);
+                weights = stiffened;
+            }
+        }
         const Vec x = hn::Load(d, step.positions[0] + slot), y = hn::Load(d, step.positions[1] + slot),
                   z = hn::Load(d, step.positions[2] + slot);
         const Vec ux = hn::Load(d, step.increments[0] + slot), uy = hn::Load(d, step.increments[1] + slot),
                   uz = hn::Load(d, step.increments[2] + slot);
         Vec fx = hn::Zero(d), fy = fx, fz = fx, nx = fx, ny = fx, nz = fx;
-        const auto other = [slot, rows](int dx, Row row) HWY_ATTR {
-            return std::size_t(std::ptrdiff_t(slot) + dx + (row == kSame ? 0 : rows[row]));
-        };
 #define SEROSA_SPRING(direction, diagonal, dx, row)                                                          \
-    addSpring<kDamped, kNormals, diagonal>(d, step, weights + direction * lanes, other(dx, row), x, y, z,    \
-                                           ux, uy, uz, fx, fy, fz, nx, ny, nz)
+    addSpring<kDamping, kNormals, diagonal>(                                                                 \
+        d, step, weights + direction * lanes,                                                                \
+        kDamping == Damping::own ? dampers + direction * lanes : nullptr, slotBeside(slot, rows, dx, row),   \
+        x, y, z, ux, uy, uz, fx, fy, fz, nx, ny, nz)
         SEROSA_SPRING(0, false, 1, kSame);
         SEROSA_SPRING(1, false, -1, kSame);
         SEROSA_SPRING(2, false, 0, kY);
@@ -193,8 +195,10 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
         SEROSA_SPRING(16, true, 0, kYz);
         SEROSA_SPRING(17, true, 0, kyZ);
 #undef SEROSA_SPRING
-        // A volumetric term, which needs the corners of whole cells, enters here: as a force in units of k h
-        // that a pass before this one left for each slot, added to fx, fy, fz.
+        if constexpr (kCells) {
+            if (step.rowForces[0])
+                addVolume(d, step, slot, rows, fx, fy, fz);
+        }
         if constexpr (kNormals)
             storePackedNormals(d, nx, ny, nz, step.normals + slot);
 
@@ -225,17 +229,27 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
     }
 }
 
-void stepBlocks(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
-    if (step.damping > 0)
-        step.withNormals ? stepRange<true, true>(step, first, last, impulses)
-                         : stepRange<true, false>(step, first, last, impulses);
+template <Damping kDamping>
+void stepDamped(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
+    if (step.bits)
+        step.withNormals ? stepRange<kDamping, true, true>(step, first, last, impulses)
+                         : stepRange<kDamping, false, true>(step, first, last, impulses);
     else
-        step.withNormals ? stepRange<false, true>(step, first, last, impulses)
-                         : stepRange<false, false>(step, first, last, impulses);
+        step.withNormals ? stepRange<kDamping, true, false>(step, first, last, impulses)
+                         : stepRange<kDamping, false, false>(step, first, last, impulses);
+}
+
+void stepBlocks(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
+    if (step.dampers)
+        stepDamped<Damping::own>(step, first, last, impulses);
+    else if (step.damping > 0)
+        stepDamped<Damping::shared>(step, first, last, impulses);
+    else
+        stepDamped<Damping::none>(step, first, last, impulses);
 }
 
 CpuKernel kernelOfTarget() {
-    return {hwy::TargetName(HWY_TARGET), hn::Lanes(Lanes()), stepBlocks};
+    return {hwy::TargetName(HWY_TARGET), hn::Lanes(Lanes()), stepBlocks, stretchBlocks, cellBlocks};
 }
 
 } // namespace serosa::sim::HWY_NAMESPACE

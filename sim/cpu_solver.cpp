@@ -1,17 +1,21 @@
 // MS05 3.1 on all cores: structure-of-arrays state in two halves, ping-pong, cut into chunks of blocks that
 // threads take in any order. No chunk reads what another writes in the same step, and what tools gave is
 // summed chunk after chunk: threads and their timing change no bit. The arithmetic is in sim/cpu_kernel.cpp.
+// Tissue with a volumetric term or that stiffens has passes over its cells before the step (sim/cpu_cells.h).
 #include "sim/cpu_solver.h"
 
+#include "sim/cpu_arrays.h"
+#include "sim/cpu_cells.h"
 #include "sim/cpu_kernel.h"
 #include "sim/cpu_layout.h"
+#include "sim/tissue_field.h"
 #include "sim/tool_motion.h"
 
-#include <hwy/aligned_allocator.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace serosa::sim {
 
@@ -20,38 +24,11 @@ namespace {
 constexpr std::size_t kChunkSlots =
     512; // a chunk: about 5 microseconds of work, and all in a first-level cache
 
-/// Aligned for the vectors, zero at first.
-template <class T>
-class SlotArray {
-public:
-    explicit SlotArray(std::size_t size) : data_(hwy::AllocateAligned<T>(size)) {
-        SEROSA_CHECK(data_, "memory for the state");
-        std::fill_n(data_.get(), size, T(0));
-    }
-    T* get() const { return data_.get(); }
-    T& operator[](std::size_t slot) const { return data_[slot]; }
-
-private:
-    hwy::AlignedFreeUniquePtr<T[]> data_;
-};
-
-/// Three coordinates, one array each.
-struct VectorArray {
-    SlotArray<float> axis[3];
-    explicit VectorArray(std::size_t size)
-        : axis{SlotArray<float>(size), SlotArray<float>(size), SlotArray<float>(size)} {}
-    void set(std::size_t slot, const glm::vec3& value) const {
-        for (int i = 0; i < 3; ++i)
-            axis[i][slot] = value[i];
-    }
-    glm::vec3 get(std::size_t slot) const { return {axis[0][slot], axis[1][slot], axis[2][slot]}; }
-};
-
 class CpuSolver final : public Solver {
 public:
     CpuSolver(const SolverSetup& setup, const CpuOptions& options)
         : setup_(setup), options_(options), kernel_(cpuKernel()),
-          layout_(makeCpuLayout(*setup.lattice, kernel_.lanes)),
+          layout_(makeCpuLayout(*setup.lattice, kernel_.lanes)), field_(*setup.lattice, setup.tissue),
           arena_(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
           positions_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
           increments_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
@@ -65,12 +42,16 @@ public:
         const double acceleration = dt * dt * setup.tissue.stiffnessOverMass(h);
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
             const std::size_t slot = slotOf(node);
-            const double mass = lattice.massShare(node);
+            const double mass = field_.massShare(node);
             const bool fixed = !setup.fixed.empty() && setup.fixed[node];
             mass_[slot] = float(mass);
             depth_[slot] = float(lattice.restDepth(node));
             acceleration_[slot] = fixed ? 0.0F : float(acceleration / mass);
         }
+        if (ownDampers(setup.tissue))
+            dampers_.emplace(layout_.blocks() * SRS_NEIGHBOURS * layout_.lanes);
+        if (CpuCells::neededBy(setup.tissue))
+            cells_.emplace(lattice, layout_, field_, setup.tissue);
         setWeights(lattice.connections);
         setState(restState(lattice));
     }
@@ -110,7 +91,10 @@ public:
         step_ = state.step;
         if (state.connections != connections_) {
             connections_ = state.connections;
-            setWeights(connections_.empty() ? setup_.lattice->connections : connections_);
+            const auto& left = connections_.empty() ? setup_.lattice->connections : connections_;
+            setWeights(left);
+            if (cells_)
+                cells_->connect(left);
         }
         for (std::size_t node = 0; node < count; ++node) {
             const std::size_t slot = slotOf(node);
@@ -135,15 +119,30 @@ public:
 private:
     std::size_t slotOf(std::size_t node) const { return std::size_t(layout_.slotOfNode[node]); }
 
-    /// The weights of the springs that `connections` (18 bits a node) leaves.
+    /// Do springs need damping constants of their own, beside weights?
+    static bool ownDampers(const Tissue& tissue) {
+        return tissue.damped() &&
+               (tissue.stiffens() ||
+                std::any_of(tissue.others.begin(), tissue.others.end(), [&tissue](const Material& material) {
+                    return material.dampingTime != tissue.dampingTime;
+                }));
+    }
+
+    /// The weights and dampers of the springs that `connections` (18 bits a node) leaves.
     void setWeights(const std::vector<std::uint32_t>& connections) {
         for (std::size_t node = 0; node < connections.size(); ++node) {
             const std::size_t place = slotOf(node) - layout_.first;
-            float* weights = weights_.get() + place / layout_.lanes * SRS_NEIGHBOURS * layout_.lanes +
-                             place % layout_.lanes;
-            for (int d = 0; d < SRS_NEIGHBOURS; ++d)
-                weights[std::size_t(d) * layout_.lanes] =
-                    connections[node] >> d & 1u ? float(setup_.lattice->springWeight(node, d)) : 0.0F;
+            const std::size_t first =
+                place / layout_.lanes * SRS_NEIGHBOURS * layout_.lanes + place % layout_.lanes;
+            for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
+                const bool connected = connections[node] >> d & 1u;
+                const std::size_t at = first + std::size_t(d) * layout_.lanes;
+                weights_[at] = connected ? float(field_.springWeight(node, d)) : 0.0F;
+                if (dampers_)
+                    (*dampers_)[at] =
+                        connected ? float(field_.dampingWeight(node, d) / setup_.timeStep / (d < 6 ? 1 : 2))
+                                  : 0.0F;
+            }
         }
     }
 
@@ -167,6 +166,9 @@ private:
         step.first = layout_.first;
         step.drag = float(1 - setup_.tissue.airDrag * dt);
         step.damping = float(setup_.tissue.dampingTime / dt);
+        step.dampers = dampers_ ? dampers_->get() : nullptr;
+        if (cells_)
+            cells_->enter(step);
         step.withNormals = withNormals;
         step.toolCount = int(tools.size());
         for (std::size_t tool = 0; tool < tools.size(); ++tool) {
@@ -181,15 +183,30 @@ private:
         return step;
     }
 
+    /// Calls work(chunk, its first block, behind its last block), in any order, on all threads.
+    template <class Work>
+    void forEveryChunk(const Work& work) const {
+        tbb::parallel_for(std::size_t(0), chunks_, [this, &work](std::size_t chunk) {
+            work(chunk, chunk * blocksPerChunk_, std::min((chunk + 1) * blocksPerChunk_, layout_.blocks()));
+        });
+    }
+
     void takeStep(bool withNormals) {
         const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
         updateHeld(tools);
         const CpuStep step = stepParameters(tools, withNormals);
         std::fill(chunkImpulses_.begin(), chunkImpulses_.end(), 0.0);
-        tbb::parallel_for(std::size_t(0), chunks_, [this, &step](std::size_t chunk) {
-            kernel_.step(step, chunk * blocksPerChunk_,
-                         std::min((chunk + 1) * blocksPerChunk_, layout_.blocks()),
-                         chunkImpulses_.data() + chunk * impulses_.size() * 3);
+        if (cells_) {
+            const CpuCellPass pass = cells_->pass(positions_[current_]);
+            if (cells_->stiffens())
+                forEveryChunk([&](std::size_t, std::size_t first, std::size_t last) {
+                    kernel_.stretch(pass, first, last);
+                });
+            forEveryChunk(
+                [&](std::size_t, std::size_t first, std::size_t last) { kernel_.cells(pass, first, last); });
+        }
+        forEveryChunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
+            kernel_.step(step, first, last, chunkImpulses_.data() + chunk * impulses_.size() * 3);
         });
         for (std::size_t i = 0; i < chunkImpulses_.size(); ++i)
             impulses_[i / 3 % impulses_.size()][glm::length_t(i % 3)] += chunkImpulses_[i];
@@ -211,9 +228,12 @@ private:
     CpuOptions options_;
     CpuKernel kernel_;
     CpuLayout layout_;
+    TissueField field_;
+    std::optional<CpuCells> cells_; // where passes over cells are needed
     tbb::task_arena arena_;
     VectorArray positions_[2], increments_[2]; // lattice units
     SlotArray<float> weights_;                 // a block: 18 directions of `lanes` weights
+    std::optional<SlotArray<float>> dampers_;  // the same: c/k over dt and squared rest length; or none
     SlotArray<float> acceleration_, mass_, depth_;
     SlotArray<std::uint32_t> normals_, heldBy_;
     std::size_t blocksPerChunk_, chunks_;

@@ -6,6 +6,7 @@
 #include "sim/fibre_springs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace serosa::sim {
 
@@ -28,12 +29,22 @@ std::vector<CurveBreak> breaksOf(const Material& material) {
 
 } // namespace
 
+double MaterialShares::tensionStrain(double energy) const {
+    double strain = std::sqrt(energy); // Newton's method on strain^2 (1 + bend strain) = energy
+    for (int i = 0; i < SRS_STRAIN_ITERATIONS; ++i)
+        strain -= (strain * strain * (1 + bend * strain) - energy) /
+                  std::max(strain * (2 + 3 * bend * strain), 1e-30);
+    return strain;
+}
+
 double MaterialShares::stiffening(double strain) const {
+    if (breaks.empty())
+        return 1;
     double factor = 1;
     for (const CurveBreak& turn : breaks)
         if (strain > turn.strain)
             factor += turn.gain * (1 - turn.strain / strain);
-    return factor;
+    return factor / (1 + 1.5 * bend * strain);
 }
 
 double MaterialShares::largestTangent() const {
@@ -60,12 +71,13 @@ std::vector<MaterialShares> materialShares(const Tissue& tissue) {
         shares.dampingTime = material.dampingTime;
         shares.spring.fill(shares.stiffness);
         if (material.fibrous()) {
-            const double excess = (material.fibreYoung - material.young) / tissue.shearModulus();
-            const std::array<double, 9> fibres = fibreSprings(material.fibre);
+            const std::array<double, 9> fibres =
+                fibreSprings(material.fibre, material.young, material.poisson, material.fibreYoung);
             for (std::size_t p = 0; p < 9; ++p)
-                shares.spring[p] += excess * fibres[p];
+                shares.spring[p] += fibres[p] / tissue.shearModulus();
         }
         shares.breaks = breaksOf(material);
+        shares.bend = SRS_SPRING_BEND(material.poisson);
         all.push_back(shares);
     }
     return all;

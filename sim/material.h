@@ -109,7 +109,11 @@ struct MaterialShares {
     double dampingTime = 0;         // s
     std::vector<CurveBreak> breaks; // rising strains; at most SRS_CURVE_BREAKS
 
-    /// Secant over first slope: how many times as stiff at an equivalent strain (sim/stiffening.h).
+    double bend = 0; // of the springs' own curve: SRS_SPRING_BEND by Poisson's ratio (sim/stiffening.h)
+
+    /// The tension strain at which springs without a curve store `energy`, in units of E/2 of the material.
+    double tensionStrain(double energy) const;
+    /// How many times as stiff as without a curve at that strain: 1 where there is none.
     double stiffening(double strain) const;
     /// Largest tangent of the curve over its first slope: no deformation is stiffer.
     double largestTangent() const;

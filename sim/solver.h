@@ -9,8 +9,7 @@
 //      P = f p(J, cof F) cof F in units of k/h;
 //   2. adds -P g_i, g_i = (+-1, +-1, +-1)/4, to the force of each of its 8 corners before the step below: all
 //      take the same P, so that the forces sum to nothing.
-// VolumeTerm::addForces is the oracle, shaders/cell_terms.glsl with solver_cells.glsl the GPU's way. A solver
-// without it refuses such tissue (supportsTissue).
+// VolumeTerm::addForces is the oracle, shaders/cell_terms.glsl with solver_cells.glsl the GPU's way.
 //
 // Several materials: m, w and b, r of the volumetric term are sums and values of the cells' own materials, in
 // units of material 0 (sim/tissue_field.h). A solver that implements stiffening (sim/stiffening.h) multiplies
@@ -112,10 +111,6 @@ struct FragmentOptions : KernelOptions {};
 /// shader errors.
 Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup,
                                                    const FragmentOptions& options = {});
-
-/// One line where the named solver cannot do what the tissue asks for; ok otherwise. `cpu` and `compute` have
-/// no volumetric term yet.
-Status supportsTissue(const std::string& solver, const Tissue& tissue);
 
 /// Work groups by layout, as measured (docs/performance.md); along x, y(, z).
 struct ComputeOptions : KernelOptions {

@@ -61,8 +61,8 @@ std::vector<double> Stiffening::factors(const std::vector<glm::dvec3>& positions
         const MaterialShares& material = materials_[cell.material];
         factors.push_back(material.breaks.empty()
                               ? 1.0
-                              : material.stiffening(std::sqrt(2 * linearEnergy(cell, positions) /
-                                                              (cell.fill * material.young))));
+                              : material.stiffening(material.tensionStrain(2 * linearEnergy(cell, positions) /
+                                                                           (cell.fill * material.young))));
     }
     return factors;
 }
@@ -72,7 +72,11 @@ double Stiffening::energy(const std::vector<glm::dvec3>& positions) const {
     for (const Cell& cell : cells_) {
         const MaterialShares& material = materials_[cell.material];
         const double linear = linearEnergy(cell, positions);
-        const double strain = std::sqrt(2 * linear / (cell.fill * material.young));
+        if (material.breaks.empty()) {
+            sum += linear;
+            continue;
+        }
+        const double strain = material.tensionStrain(2 * linear / (cell.fill * material.young));
         double psi = 0.5 * strain * strain; // integral of sigma / E
         for (const CurveBreak& turn : material.breaks)
             if (strain > turn.strain)

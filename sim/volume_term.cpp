@@ -106,17 +106,4 @@ double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
     return 0.5 * (bulk * softening(cofactor) * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
 }
 
-Status supportsTissue(const std::string& solver, const Tissue& tissue) {
-    if (solver != "cpu")
-        return {};
-    if (tissue.materialCount() > 1 || tissue.stiffens() || tissue.fibrous())
-        return Error{
-            "the cpu solver has one linear material without fibres: take --solver fragment or reference"};
-    if (!tissue.volumetric())
-        return {};
-    return Error{"the " + solver + " solver has no volumetric term, which " +
-                 (tissue.poisson > 0.25 ? "a Poisson's ratio above 0.25" : "recovery") +
-                 " needs: take --solver fragment or reference"};
-}
-
 } // namespace serosa::sim

@@ -74,10 +74,6 @@ TEST(VolumeTerm, isNothingAtAQuarterAndRefusesNothingElse) {
     EXPECT_TRUE(VolumeTerm(lattice, tissueOf(0.25), lattice.connections).empty());
     EXPECT_FALSE(VolumeTerm(lattice, tissueOf(0.3), lattice.connections).empty());
     EXPECT_FALSE(VolumeTerm(lattice, tissueOf(0.25, true), lattice.connections).empty());
-    EXPECT_TRUE(sim::supportsTissue("fragment", tissueOf(0.45)).ok());
-    EXPECT_TRUE(sim::supportsTissue("cpu", tissueOf(0.25)).ok());
-    EXPECT_FALSE(sim::supportsTissue("cpu", tissueOf(0.45)).ok());
-    EXPECT_TRUE(sim::supportsTissue("compute", tissueOf(0.25, true)).ok());
 }
 
 TEST(VolumeTerm, forceIsTheDerivativeOfTheEnergy) {
