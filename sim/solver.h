@@ -111,8 +111,10 @@ std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
 
 /// Of shaders/solver_kernel.glsl, whatever runs it.
 struct KernelOptions {
-    int layout = -1;            // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
-    bool normals = true;        // write eq. 3 into alpha (benchmarks switch it off)
+    int layout = -1;               // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
+    bool normals = true;           // write eq. 3 into alpha (benchmarks switch it off)
+    bool normalsEveryStep = false; // as CpuOptions: else the last step of an advance() alone writes them
+    bool fills = true;             // false (benchmarks): every cell counts as full
     bool printedForm = true;    // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
     bool useTexelFetch = false; // texelFetch instead of imageLoad
 };
