@@ -183,7 +183,7 @@ Result<sim::Lattice> randomLattice(Random& random, std::size_t mostNodes) {
     const double nodes = random.logNumber(double(kFewestNodes), double(mostNodes));
     if (random.chance(0.35)) {
         static const std::pair<const char*, std::size_t> kPhantoms[] = {
-            {"ball", 5000}, {"heart", 12000}, {"liver", 12000}, {"kidney", 5000}};
+            {"ball", 5000}, {"heart", 12000}, {"liver", 12000}, {"kidney", 6000}};
         const auto& [name, faces] = kPhantoms[random.whole(0, 3)];
         SEROSA_ASSIGN(const sim::TriangleMesh* mesh, phantomMesh(name, faces));
         sim::LatticeRequest request;
