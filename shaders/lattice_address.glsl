@@ -1,7 +1,8 @@
 // Where a node's neighbours lie in the state textures (sim/texture_layout.h). The solver defines SRS_LAYOUT and
 // SRS_GRID_NY (grid: rows of nodes a slice) or SRS_ROW_LOG2 (rows: log2 of the texture's width).
 //
-// beginAddresses(texel) once, then neighbourTexel(dx, dy, dz) with constants.
+// beginAddresses(texel) once, then neighbourTexel(dx, dy, dz) with constants. cellTexel is the same in textures, where
+// neighbours are read from somewhere else.
 #include "shared_constants.h"
 
 #if defined SRS_TILES
@@ -11,6 +12,7 @@
 ivec2 g_texel;
 void beginAddresses(ivec2 texel) { g_texel = texel; }
 #define neighbourTexel(dx, dy, dz, row) (g_texel + ivec2(dx, (dy) + SRS_GRID_NY * (dz)))
+#define cellTexel(dx, dy, dz, row) neighbourTexel(dx, dy, dz, row)
 
 #else
 
@@ -35,5 +37,6 @@ ivec2 texelOfLinear(int i) { return ivec2(i & ((1 << SRS_ROW_LOG2) - 1), i >> SR
 #define ROW_Yz g_rowsB.z
 #define ROW_yZ g_rowsB.w
 #define neighbourTexel(dx, dy, dz, row) texelOfLinear(g_linear + (row) + (dx))
+#define cellTexel(dx, dy, dz, row) neighbourTexel(dx, dy, dz, row)
 
 #endif

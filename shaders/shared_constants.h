@@ -4,7 +4,7 @@
 // State textures (ARCHITECTURE.md, texture formats).
 // Node info texel, RGBA32UI: .x = connection bits 0..17, rest depth << 18 (8 bits), flags << 26 (6 bits);
 // .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w =
-// free.
+// materials of these cells, 4 bits each.
 #define SRS_CONNECTION_MASK 0x3ffffu
 #define SRS_DEPTH_SHIFT 18 // below the surface: steps of 1/85 spacing from -2 (sim/node_depths.h)
 #define SRS_DEPTH_MASK 0xffu
@@ -55,6 +55,11 @@
 #define SRS_VOLUME_STIFFENING 3.5 // |cof F|^2 beyond which a squeezed cell stiffens no further; at rest 3
 #define SRS_COLLAPSED 0.4         // cells below this share of their volume push back, where recovery is asked
 #define SRS_RECOVERY 3.0          // for; its stiffness in units of k/h
+
+// Materials (sim/material.h)
+#define SRS_MAX_MATERIALS 16      // an organ: 4 bits a cell
+#define SRS_CURVE_BREAKS 8        // turns of a stress-strain curve, the strain limit's among them
+#define SRS_LIMIT_STIFFENING 10.0 // tangent beyond a strain limit over the tangent before it
 
 // Surface mapping modes, a vertex
 #define SRS_BASIS_CONSTANT 0u

@@ -2,20 +2,22 @@
 // sim/lattice.h. Twin of sim/reference_solver.cpp; what a step does stands in sim/solver.h. Unrolled: loops over
 // neighbours are twice slower on llvmpipe.
 //
-// Departures from MS05: k is the full constant, not a half; each spring's weight comes from the fills of the cells that
-// hold it; the increment is stored instead of the last position.
+// Departures from MS05: k is the full constant, not a half; each spring's weight comes from the cells that hold it
+// (cell_weights.glsl); the increment is stored instead of the last position.
 #include "lattice_address.glsl"
 #include "packed_normal.glsl"
+#include "cell_weights.glsl"
 
 uniform float u_acceleration; // dt^2 k / (rho h^3)
-uniform float u_damping;      // damping time / dt
+uniform float u_damping;      // damping time / dt, where all materials have the same
 uniform float u_drag;         // 1 - air drag dt
 uniform vec3 u_gravity;       // dt^2 g / h
 
-// Sums over the springs; weights are integers in units of k/1020, so that both ends sum the same.
+// Sums over the springs; weights are in units of k/1020.
 vec3 g_position, g_increment, g_force, g_normal;
 
-void addSpring(float weight, float rest, float rest2, ivec2 texel) {
+/// \param damping weight times damping time / dt
+void addSpring(float weight, float damping, float rest, float rest2, ivec2 texel) {
 #ifdef SRS_TEXEL_FETCH
     if (weight == 0.0) // outside of the texture a fetch is undefined
         texel = ivec2(0);
@@ -32,56 +34,87 @@ void addSpring(float weight, float rest, float rest2, ivec2 texel) {
     g_force += weight * (rest - len) * unit;
 #endif
 #ifdef SRS_DAMPING
-    g_force -= (weight * u_damping * dot(unit, g_increment - loadIncrement(texel))) * unit;
+    g_force -= (damping * dot(unit, g_increment - loadIncrement(texel))) * unit;
 #endif
 #ifdef SRS_NORMALS
     g_normal += weight > 0.0 ? unit : vec3(0.0); // eq. 3
 #endif
 }
 
-#ifdef SRS_VOLUME
-#include "solver_volume.glsl"
+#ifdef SRS_CELL_PASS
+#include "solver_cells.glsl"
 #endif
 
 float connected(uint bits, int d) { return float((bits >> d) & 1u); }
 
-/// Force in units of k h / 1020, and the sum of unit vectors; returns the sum of the node's fills (0 .. 2040).
+// Springs of one direction pair: weights from `c`, damping from `damped` where damping times differ.
+#ifdef SRS_VARIED_DAMPING
+#define DAMPING(sum) sum(damped)
+#else
+#define DAMPING(sum) sum(c) * u_damping
+#endif
+#define ADD_SPRING(d, sum, rest, rest2, texel)                                                                         \
+    addSpring(connected(bits, d) * sum(c), connected(bits, d) * DAMPING(sum), rest, rest2, texel)
+#ifdef SRS_FIBRES
+#define PAIR(p)                                                                                                        \
+    springs = timesSprings(fills, p);                                                                                  \
+    WEIGH
+#else
+#define PAIR(p)
+#endif
+#ifdef SRS_STIFFENING
+#define STRETCHED(cells) timesFactors(cells)
+#else
+#define STRETCHED(cells) cells
+#endif
+#ifdef SRS_VARIED_DAMPING
+#define WEIGH                                                                                                          \
+    c = STRETCHED(springs);                                                                                            \
+    damped = timesDampingTimes(springs);
+#else
+#define WEIGH c = STRETCHED(springs);
+#endif
+
+/// Force in units of k h / 1020, and the sum of unit vectors; returns the node's mass in units of rho h^3 / 2040.
 float sumSprings(uvec4 info, vec3 position, vec3 increment) {
     const float diagonal = 1.41421356;
     g_position = position;
     g_increment = increment;
     g_force = vec3(0.0);
     g_normal = vec3(0.0);
-    // Fills of the cells with z below (a) and above (b); components (-x-y, +x-y, -x+y, +x+y).
-    vec4 a = vec4((info.yyyy >> uvec4(0, 8, 16, 24)) & 255u);
-    vec4 b = vec4((info.zzzz >> uvec4(0, 8, 16, 24)) & 255u);
-    vec4 xy = a + b;               // sums over z: the diagonals in the xy plane
-    vec2 xBelow = a.xy + a.zw, xAbove = b.xy + b.zw; // -x, +x; sums over y
-    vec2 yBelow = a.xz + a.yw, yAbove = b.xz + b.yw; // -y, +y; sums over x
-    vec2 x = xBelow + xAbove, y = yBelow + yAbove;
-    float zBelow = yBelow.x + yBelow.y, zAbove = yAbove.x + yAbove.y;
     uint bits = info.x;
-
-    addSpring(connected(bits, 0) * x.y, 1.0, 1.0, neighbourTexel(1, 0, 0, ROW_SAME));
-    addSpring(connected(bits, 1) * x.x, 1.0, 1.0, neighbourTexel(-1, 0, 0, ROW_SAME));
-    addSpring(connected(bits, 2) * y.y, 1.0, 1.0, neighbourTexel(0, 1, 0, ROW_Y));
-    addSpring(connected(bits, 3) * y.x, 1.0, 1.0, neighbourTexel(0, -1, 0, ROW_y));
-    addSpring(connected(bits, 4) * zAbove, 1.0, 1.0, neighbourTexel(0, 0, 1, ROW_Z));
-    addSpring(connected(bits, 5) * zBelow, 1.0, 1.0, neighbourTexel(0, 0, -1, ROW_z));
-    addSpring(connected(bits, 6) * 2.0 * xy.w, diagonal, 2.0, neighbourTexel(1, 1, 0, ROW_Y));
-    addSpring(connected(bits, 7) * 2.0 * xy.x, diagonal, 2.0, neighbourTexel(-1, -1, 0, ROW_y));
-    addSpring(connected(bits, 8) * 2.0 * xy.y, diagonal, 2.0, neighbourTexel(1, -1, 0, ROW_y));
-    addSpring(connected(bits, 9) * 2.0 * xy.z, diagonal, 2.0, neighbourTexel(-1, 1, 0, ROW_Y));
-    addSpring(connected(bits, 10) * 2.0 * xAbove.y, diagonal, 2.0, neighbourTexel(1, 0, 1, ROW_Z));
-    addSpring(connected(bits, 11) * 2.0 * xBelow.x, diagonal, 2.0, neighbourTexel(-1, 0, -1, ROW_z));
-    addSpring(connected(bits, 12) * 2.0 * xBelow.y, diagonal, 2.0, neighbourTexel(1, 0, -1, ROW_z));
-    addSpring(connected(bits, 13) * 2.0 * xAbove.x, diagonal, 2.0, neighbourTexel(-1, 0, 1, ROW_Z));
-    addSpring(connected(bits, 14) * 2.0 * yAbove.y, diagonal, 2.0, neighbourTexel(0, 1, 1, ROW_YZ));
-    addSpring(connected(bits, 15) * 2.0 * yBelow.x, diagonal, 2.0, neighbourTexel(0, -1, -1, ROW_yz));
-    addSpring(connected(bits, 16) * 2.0 * yBelow.y, diagonal, 2.0, neighbourTexel(0, 1, -1, ROW_Yz));
-    addSpring(connected(bits, 17) * 2.0 * yAbove.x, diagonal, 2.0, neighbourTexel(0, -1, 1, ROW_yZ));
-#ifdef SRS_VOLUME
-    addVolume(info);
+    Cells fills = fillsAround(info);
+    beginMaterials(info);
+#ifdef SRS_CELL_PASS
+    gatherCells(info);
 #endif
-    return zBelow + zAbove;
+    Cells springs = timesSprings(fills, 0), c, damped;
+    WEIGH
+    ADD_SPRING(0, sumPx, 1.0, 1.0, neighbourTexel(1, 0, 0, ROW_SAME));
+    ADD_SPRING(1, sumNx, 1.0, 1.0, neighbourTexel(-1, 0, 0, ROW_SAME));
+    PAIR(1)
+    ADD_SPRING(2, sumPy, 1.0, 1.0, neighbourTexel(0, 1, 0, ROW_Y));
+    ADD_SPRING(3, sumNy, 1.0, 1.0, neighbourTexel(0, -1, 0, ROW_y));
+    PAIR(2)
+    ADD_SPRING(4, sumPz, 1.0, 1.0, neighbourTexel(0, 0, 1, ROW_Z));
+    ADD_SPRING(5, sumNz, 1.0, 1.0, neighbourTexel(0, 0, -1, ROW_z));
+    PAIR(3)
+    ADD_SPRING(6, sumPxPy, diagonal, 2.0, neighbourTexel(1, 1, 0, ROW_Y));
+    ADD_SPRING(7, sumNxNy, diagonal, 2.0, neighbourTexel(-1, -1, 0, ROW_y));
+    PAIR(4)
+    ADD_SPRING(8, sumPxNy, diagonal, 2.0, neighbourTexel(1, -1, 0, ROW_y));
+    ADD_SPRING(9, sumNxPy, diagonal, 2.0, neighbourTexel(-1, 1, 0, ROW_Y));
+    PAIR(5)
+    ADD_SPRING(10, sumPxPz, diagonal, 2.0, neighbourTexel(1, 0, 1, ROW_Z));
+    ADD_SPRING(11, sumNxNz, diagonal, 2.0, neighbourTexel(-1, 0, -1, ROW_z));
+    PAIR(6)
+    ADD_SPRING(12, sumPxNz, diagonal, 2.0, neighbourTexel(1, 0, -1, ROW_z));
+    ADD_SPRING(13, sumNxPz, diagonal, 2.0, neighbourTexel(-1, 0, 1, ROW_Z));
+    PAIR(7)
+    ADD_SPRING(14, sumPyPz, diagonal, 2.0, neighbourTexel(0, 1, 1, ROW_YZ));
+    ADD_SPRING(15, sumNyNz, diagonal, 2.0, neighbourTexel(0, -1, -1, ROW_yz));
+    PAIR(8)
+    ADD_SPRING(16, sumPyNz, diagonal, 2.0, neighbourTexel(0, 1, -1, ROW_Yz));
+    ADD_SPRING(17, sumNyPz, diagonal, 2.0, neighbourTexel(0, -1, 1, ROW_yZ));
+    return sumAll(timesDensities(fills));
 }

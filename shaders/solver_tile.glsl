@@ -25,11 +25,14 @@ void fillTile() {
 
 // Addresses are places in the tile (x only); a node's own texel is read from the textures.
 int g_inTile;
+ivec2 g_texel;
 void beginAddresses(ivec2 texel) {
+    g_texel = texel;
     ivec3 local = ivec3(gl_LocalInvocationID) + 1;
     g_inTile = (local.z * kTile.y + local.y) * kTile.x + local.x;
 }
 #define neighbourTexel(dx, dy, dz, row) ivec2(g_inTile + (dx) + kTile.x * ((dy) + kTile.y * (dz)), 0)
+#define cellTexel(dx, dy, dz, row) (g_texel + ivec2(dx, (dy) + SRS_GRID_NY * (dz)))
 vec3 loadPosition(ivec2 place) { return s_positions[place.x]; }
 #ifdef SRS_DAMPING
 vec3 loadIncrement(ivec2 place) { return s_increments[place.x]; }

@@ -74,6 +74,9 @@ private:
         const gpu::ShaderLibrary library;
         SEROSA_ASSIGN(stepProgram_, gpu::Program::create(library, {"solver_step.comp"}, defines));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"grasp.comp"}));
+        if (CellPass::needed(setup_.tissue))
+            SEROSA_TRY(cellPass_.initialize(setup_, textures_, kernelDefines(setup_, layout, options_),
+                                            stepProgram_, true));
         setConstants();
         stepProgram_.set("u_items", items_);
         return createImpulses(library);
@@ -100,11 +103,12 @@ private:
 
     void takeStep() {
         setTools();
+        if (CellPass::needed(setup_.tissue))
+            cellPass_.run(textures_);
         setStepInputs(options_.useTexelFetch);
         const std::size_t to = std::size_t(nextHalf());
         stepProgram_.image("i_newPositions", textures_.positions_[to], GL_WRITE_ONLY);
         stepProgram_.image("i_newIncrements", textures_.increments_[to], GL_WRITE_ONLY);
-        // The volumetric term's pass over the cells (sim/volume_term.h) will run here, before the step.
         stepProgram_.dispatch(items_);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                         GL_SHADER_STORAGE_BARRIER_BIT);
@@ -127,7 +131,6 @@ private:
 Result<std::unique_ptr<Solver>> makeComputeSolver(const SolverSetup& setup, const ComputeOptions& options) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
-    SEROSA_TRY(supportsTissue("compute", setup.tissue));
     return ComputeSolver::create(setup, options);
 }
 

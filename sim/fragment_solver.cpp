@@ -73,51 +73,23 @@ private:
             graspTargets_[i].attach(GL_COLOR_ATTACHMENT0, textures_.nodeInfo_[i]);
             graspTargets_[i].setDrawBuffers(1);
         }
-        if (setup_.tissue.volumetric())
-            SEROSA_TRY(initializeVolume(library, defines));
+        if (CellPass::needed(setup_.tissue))
+            SEROSA_TRY(cellPass_.initialize(setup_, textures_, defines, stepProgram_, false));
         emptyVertices_ = gpu::VertexArray("no attributes");
 
         setConstants();
         return {};
     }
 
-    /// The pass of the volumetric term (sim/volume_term.h), made only where the tissue asks for it.
-    Status initializeVolume(const gpu::ShaderLibrary& library,
-                            const std::vector<gpu::ShaderDefine>& defines) {
-        const TextureLayout& layout = textures_.layout();
-        SEROSA_ASSIGN(volumeProgram_,
-                      gpu::Program::create(library, {"pass.vert", "volume_cells.frag"}, defines));
-        volumeTarget_ = gpu::Framebuffer("volumetric term");
-        const char* samplers[] = {"t_volumeX", "t_volumeY", "t_volumeZ"};
-        for (std::size_t column = 0; column < 3; ++column) {
-            volume_[column] = gpu::Texture2D("volumetric term", GL_RGBA32F, layout.width, layout.height);
-            volumeTarget_.attach(GLenum(GL_COLOR_ATTACHMENT0 + column), volume_[column]);
-            stepProgram_.texture(samplers[column], volume_[column]);
-        }
-        volumeTarget_.setDrawBuffers(3);
-        volumeProgram_.set("u_bulk", float(setup_.tissue.bulkShare()));
-        volumeProgram_.set("u_recovery", float(setup_.tissue.recovery ? SRS_RECOVERY : 0));
-        setRowOffsets(volumeProgram_);
-        return {};
-    }
-
-    void takeVolumePass() {
-        volumeProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
-        volumeProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
-        volumeTarget_.bind(textures_.layout().width, textures_.layout().height);
-        volumeProgram_.use();
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
-        // The first tool's impulse blends into attachment 2, this pass's must not.
-        glDisablei(GL_BLEND, 2);
-        gpu::drawFullScreen(emptyVertices_);
-        if (!setup_.tools.empty())
-            glEnablei(GL_BLEND, 2);
-    }
-
     void takeStep() {
         setTools();
-        if (setup_.tissue.volumetric())
-            takeVolumePass();
+        if (CellPass::needed(setup_.tissue)) {
+            // The first tool's impulse blends into attachment 2, this pass's third column must not.
+            glDisablei(GL_BLEND, 2);
+            cellPass_.run(textures_);
+            if (!setup_.tools.empty())
+                glEnablei(GL_BLEND, 2);
+        }
         setStepInputs(options_.useTexelFetch);
         stepTargets_[std::size_t(nextHalf())].bind(textures_.layout().width, textures_.layout().height);
         stepProgram_.use();
@@ -136,11 +108,8 @@ private:
     }
 
     FragmentOptions options_;
-    gpu::Program volumeProgram_;
     gpu::Framebuffer stepTargets_[2], graspTargets_[2];
     std::vector<gpu::Texture2D> impulses_; // one a tool
-    gpu::Texture2D volume_[3];             // a cell's fill p cof(F), column by column
-    gpu::Framebuffer volumeTarget_;
     gpu::VertexArray emptyVertices_;
 };
 

@@ -39,14 +39,6 @@ glm::ivec3 cornerOffset(int corner) {
     return {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
 }
 
-/// Does the cell in octant `octant` around a node hold the neighbour at `offset` too?
-bool octantHolds(int octant, const glm::ivec3& offset) {
-    for (int axis = 0; axis < 3; ++axis)
-        if (offset[axis] != 0 && (offset[axis] > 0) != (((octant >> axis) & 1) != 0))
-            return false;
-    return true;
-}
-
 /// The two triangles of each outer face of each material cell.
 void addBoundary(Lattice& lattice, const std::vector<std::uint8_t>& fillOfCell) {
     const glm::ivec3 cellDims = lattice.nodeDims - 1;
@@ -80,6 +72,25 @@ void addBoundary(Lattice& lattice, const std::vector<std::uint8_t>& fillOfCell) 
 
 } // namespace
 
+bool octantHolds(int octant, int d) {
+    const glm::ivec3& offset = kNeighbourOffsets[std::size_t(d)];
+    for (int axis = 0; axis < 3; ++axis)
+        if (offset[axis] != 0 && (offset[axis] > 0) != (((octant >> axis) & 1) != 0))
+            return false;
+    return true;
+}
+
+std::vector<std::int32_t> cellsAround(const Lattice& lattice) {
+    std::vector<std::int32_t> cells(8 * lattice.nodeCount(), -1);
+    for (std::size_t cell = 0; cell < lattice.cells.size(); ++cell)
+        for (int corner = 0; corner < 8; ++corner) {
+            // The cell lies towards -x of its corner at +x.
+            const auto node = std::size_t(lattice.nodeAt(lattice.cells[cell].grid + cornerOffset(corner)));
+            cells[8 * node + std::size_t(7 - corner)] = std::int32_t(cell);
+        }
+    return cells;
+}
+
 std::int64_t Lattice::nodeAt(const glm::ivec3& grid) const {
     if (glm::any(glm::lessThan(grid, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(grid, nodeDims)))
         return -1;
@@ -104,7 +115,7 @@ double Lattice::springWeight(std::size_t node, int d) const {
         return 0;
     int sum = 0;
     for (int octant = 0; octant < 8; ++octant)
-        if (octantHolds(octant, kNeighbourOffsets[std::size_t(d)]))
+        if (octantHolds(octant, d))
             sum += fills[node][std::size_t(octant)];
     return sum / (255.0 * (d < 6 ? 4.0 : 2.0));
 }
@@ -163,7 +174,7 @@ Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const g
                     if (around[std::size_t(octant)] == 0)
                         continue;
                     for (int d = 0; d < 18; ++d)
-                        if (octantHolds(octant, kNeighbourOffsets[std::size_t(d)]))
+                        if (octantHolds(octant, d))
                             bits |= 1u << d;
                 }
                 lattice.fills.push_back(around);

@@ -29,8 +29,9 @@ struct LatticeRequest {
 };
 
 struct LatticeCell {
-    glm::ivec3 grid;   // lowest corner
-    std::uint8_t fill; // 1 .. 255: share of the volume inside, in 1/255
+    glm::ivec3 grid;           // lowest corner
+    std::uint8_t fill;         // 1 .. 255: share of the volume inside, in 1/255
+    std::uint8_t material = 0; // index into the organ's tissue (sim/material.h)
 };
 
 /// Shape, connections, fills and boundary: all that does not move. Immutable once built.
@@ -65,7 +66,7 @@ struct Lattice {
     /// 1/85. Without a surface (latticeFromCells) what the share of mass says of a plane along the grid.
     double restDepth(std::size_t node) const { return depthSteps[node] / 85.0 - 2; }
     /// Spring weight w in direction d (k_ij = w k): edges sum f/4 over the cells that hold both ends,
-    /// diagonals f/2.
+    /// diagonals f/2. Of the shape alone, as of one material: sim/tissue_field.h knows the materials.
     double springWeight(std::size_t node, int d) const;
 
     std::vector<std::int32_t> nodeOfGrid; // whole grid, x fastest; -1 where no node
@@ -79,6 +80,13 @@ Result<Lattice> buildLattice(const TriangleMesh& metres, const LatticeRequest& r
 /// A lattice straight from a list of cells (tests, procedural shapes). `cells` need not be sorted; duplicates
 /// are refused.
 Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const glm::dvec3& origin);
+
+/// Does the cell in octant `octant` around a node (cell c lies towards +x if c & 1, ...) hold the node's
+/// neighbour in direction d, too?
+bool octantHolds(int octant, int d);
+
+/// Index of the cell in each octant around each node; -1: none. 8 a node.
+std::vector<std::int32_t> cellsAround(const Lattice& lattice);
 
 /// Summed unit vectors of eq. 3 (unnormalized) at rest, one a node: MS05 3.2. Length 0 inside, >= 0.5 where
 /// well defined.

@@ -3,6 +3,8 @@
 #include "shaders/shared_constants.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
+#include "sim/stiffening.h"
+#include "sim/tissue_field.h"
 #include "sim/tool_motion.h"
 #include "sim/volume_term.h"
 
@@ -14,16 +16,18 @@ namespace {
 
 class ReferenceSolver final : public Solver {
 public:
-    explicit ReferenceSolver(const SolverSetup& setup) : setup_(setup), state_(restState(*setup.lattice)) {
+    explicit ReferenceSolver(const SolverSetup& setup)
+        : setup_(setup), field_(*setup.lattice, setup.tissue), state_(restState(*setup.lattice)) {
         const Lattice& lattice = *setup.lattice;
         const std::size_t count = lattice.nodeCount();
         if (setup_.fixed.empty())
             setup_.fixed.assign(count, false);
         neighbours_.resize(count * SRS_NEIGHBOURS);
         weights_.resize(count * SRS_NEIGHBOURS);
+        damping_.resize(count * SRS_NEIGHBOURS);
         mass_.resize(count);
         for (std::size_t node = 0; node < count; ++node)
-            mass_[node] = lattice.massShare(node);
+            mass_[node] = field_.massShare(node);
         connect(lattice.connections);
         impulses_.assign(setup_.tools.size(), glm::dvec3(0));
     }
@@ -68,16 +72,25 @@ private:
                 const std::size_t slot = node * SRS_NEIGHBOURS + std::size_t(d);
                 const bool connected = (connections[node] >> d) & 1u;
                 neighbours_[slot] = connected ? lattice.neighbour(node, d) : -1;
-                weights_[slot] = connected ? lattice.springWeight(node, d) : 0;
+                weights_[slot] = connected ? field_.springWeight(node, d) : 0;
+                damping_[slot] = connected ? field_.dampingWeight(node, d) : 0;
             }
         volume_ = VolumeTerm(lattice, setup_.tissue, connections);
+        stiffening_ = Stiffening(lattice, setup_.tissue, connections);
+    }
+
+    /// Weights of all springs as the cells are stretched at `positions`.
+    void stiffen(const std::vector<double>& cellFactors) {
+        for (std::size_t slot = 0; slot < weights_.size(); ++slot)
+            if (neighbours_[slot] >= 0)
+                weights_[slot] =
+                    field_.springWeight(slot / SRS_NEIGHBOURS, int(slot % SRS_NEIGHBOURS), cellFactors);
     }
 
     void step() {
         const Lattice& lattice = *setup_.lattice;
         const double dt = setup_.timeStep;
         const double acceleration = dt * dt * setup_.tissue.stiffnessOverMass(lattice.spacing);
-        const double damping = setup_.tissue.dampingTime / dt;
         const double drag = 1 - setup_.tissue.airDrag * dt;
         const glm::dvec3 gravity = setup_.gravity * (dt * dt / lattice.spacing);
         const std::vector<ToolMotion> tools = toolMotions(setup_, state_.step);
@@ -87,7 +100,10 @@ private:
         const std::vector<glm::dvec3>& u = state_.increments;
         LatticeState next = state_;
         pressure_.assign(x.size(), glm::dvec3(0));
-        volume_.addForces(x, pressure_);
+        const std::vector<double> cellFactors = stiffening_.factors(x);
+        if (!stiffening_.empty())
+            stiffen(cellFactors);
+        volume_.addForces(x, pressure_, cellFactors);
         for (std::size_t node = 0; node < x.size(); ++node) {
             glm::dvec3 force = pressure_[node], normal(0);
             for (std::size_t slot = node * SRS_NEIGHBOURS; slot < (node + 1) * SRS_NEIGHBOURS; ++slot) {
@@ -99,8 +115,8 @@ private:
                 const double length = std::max(glm::length(d), 1e-6);
                 const glm::dvec3 unit = d / length;
                 normal += unit;
-                force += weights_[slot] *
-                         ((rest - length) * unit - damping * glm::dot(unit, u[node] - u[other]) * unit);
+                force += weights_[slot] * (rest - length) * unit -
+                         damping_[slot] / dt * glm::dot(unit, u[node] - u[other]) * unit;
             }
             next.normals[node] = packNormal(glm::vec3(normal));
             if (setup_.fixed[node]) {
@@ -123,11 +139,14 @@ private:
     }
 
     SolverSetup setup_;
+    TissueField field_;
     LatticeState state_;
     std::vector<std::int64_t> neighbours_; // 18 a node, -1 where none
     std::vector<double> weights_;          // 18 a node, 0 where none
+    std::vector<double> damping_;          // the same: TissueField::dampingWeight, s
     std::vector<double> mass_;             // share of a full node's
     VolumeTerm volume_;
+    Stiffening stiffening_;
     std::vector<glm::dvec3> pressure_; // the volumetric term's forces, k h
     std::vector<glm::dvec3> impulses_; // mass shares times lattice units a step
 };
@@ -156,22 +175,27 @@ Energies energies(const SolverSetup& setup, const LatticeState& state) {
     const bool cut = !state.connections.empty();
     const std::vector<std::uint32_t>& connections = cut ? state.connections : lattice.connections;
     Energies sum;
-    if (setup.tissue.volumetric())
-        sum.elastic = k * h * h * VolumeTerm(lattice, setup.tissue, connections).energy(state.positions);
+    const TissueField field(lattice, setup.tissue);
+    const VolumeTerm volume(lattice, setup.tissue, connections);
+    const Stiffening stiffening(lattice, setup.tissue, connections);
+    sum.elastic =
+        k * h * h *
+        (stiffening.empty() ? volume.energy(state.positions)
+                            : volume.recoveryEnergy(state.positions) + stiffening.energy(state.positions));
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
-        const double mass = m * lattice.massShare(node);
+        const double mass = m * field.massShare(node);
         const glm::dvec3 velocity = state.increments[node] * (h / setup.timeStep);
         sum.kinetic += 0.5 * mass * glm::dot(velocity, velocity);
         sum.gravitational -=
             mass * glm::dot(setup.gravity, h * (state.positions[node] - lattice.restPosition(node)));
-        for (int d = 0; d < SRS_NEIGHBOURS; d += 2) {
+        for (int d = 0; d < SRS_NEIGHBOURS && stiffening.empty(); d += 2) {
             const std::int64_t other = lattice.neighbour(node, d);
             if (other < 0 || !((connections[node] >> d) & 1u))
                 continue;
             const double rest = d < 6 ? 1.0 : std::sqrt(2.0);
             const double stretch =
                 glm::length(state.positions[node] - state.positions[std::size_t(other)]) - rest;
-            sum.elastic += 0.5 * k * lattice.springWeight(node, d) * stretch * stretch * h * h;
+            sum.elastic += 0.5 * k * field.springWeight(node, d) * stretch * stretch * h * h;
         }
     }
     return sum;

@@ -9,13 +9,18 @@
 //      P = f p(J, cof F) cof F in units of k/h;
 //   2. adds -P g_i, g_i = (+-1, +-1, +-1)/4, to the force of each of its 8 corners before the step below: all
 //      take the same P, so that the forces sum to nothing.
-// VolumeTerm::addForces is the oracle, shaders/volume_cells.frag with solver_volume.glsl (SRS_VOLUME) the
-// GPU's way. A solver without it refuses such tissue (supportsTissue).
+// VolumeTerm::addForces is the oracle, shaders/cell_terms.glsl with solver_cells.glsl the GPU's way. A solver
+// without it refuses such tissue (supportsTissue).
+//
+// Several materials: m, w and b, r of the volumetric term are sums and values of the cells' own materials, in
+// units of material 0 (sim/tissue_field.h). A solver that implements stiffening (sim/stiffening.h) multiplies
+// each cell's shares of w and its b by the factor that the positions at the start of the step give.
 //
 // A step, for a node of mass share m = sum(f)/8 and spring weights w (sim/lattice.h), in lattice units:
 //   F  = sum_j w_ij (L_ij/|d| - 1) d,  d = x_i - x_j                        (MS05 eq. 1 and 2, k the full
 //   constant)
-//      - dampingTime/dt sum_j w_ij n (n . (u_i - u_j)),  n = d/|d|          (along springs, u the increments)
+//      - dampingTime/dt sum_j w_ij n (n . (u_i - u_j)),  n = d/|d|          (along springs, u the increments;
+//        w and damping time as they are unstretched)
 //   u' = (1 - airDrag dt) u + dt^2 (k/(rho h^3) F/m + g/h)
 //   x' = x + u';  then tools: x' is moved out of a pushing sphere or with a grasping one, and u' = x' - x.
 
@@ -126,9 +131,10 @@ Result<std::unique_ptr<Solver>> makeComputeSolver(const SolverSetup& setup,
 /// How the time step was computed, for the summary.
 struct StableStep {
     // omega^2 in 1/s2: Lanczos iteration on the rest lattice with its volumetric term
-    double stiffestRate2 = 0; // never below formulaRate2
-    double springRate2 = 0;   // of the springs alone, which are what is damped; never below 12 k/m
-    double formulaRate2 = 0;  // of the endless lattice: (12 + 4 bulkShare) k/m
+    double stiffestRate2 = 0; // one isotropic material: never below formulaRate2
+    double springRate2 = 0;   // of the springs alone; one isotropic material: never below 12 k/m
+    double dampingRate = 0;   // 1/s: the largest of M^-1 C; dampingTime * springRate2 where that is one
+    double formulaRate2 = 0;  // of the endless lattice of material 0: (12 + 4 bulkShare) k/m
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used
     int stepsPerFrame = 0;

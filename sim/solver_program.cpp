@@ -2,6 +2,7 @@
 #include "sim/solver_program.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/cell_pass.h"
 
 #include <array>
 #include <bit>
@@ -17,10 +18,25 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         {"SRS_ROW_LOG2", std::to_string(std::countr_zero(unsigned(layout.width)))},
         {"SRS_TOOLS", std::to_string(setup.tools.size())},
         {"SRS_EQUATION", options.printedForm ? "2" : "1"}};
-    if (setup.tissue.dampingTime > 0)
+    const Tissue& tissue = setup.tissue;
+    bool varied = tissue.stiffens(); // damping follows the unstretched springs
+    for (const Material& material : tissue.others)
+        varied = varied || material.dampingTime != tissue.dampingTime;
+    defines.push_back({"SRS_MATERIALS", std::to_string(tissue.materialCount())});
+    if (tissue.materialCount() > 1 || tissue.fibrous() || tissue.stiffens())
+        defines.push_back({"SRS_CELL_MATERIALS", "1"});
+    if (tissue.fibrous())
+        defines.push_back({"SRS_FIBRES", "1"});
+    if (tissue.damped())
         defines.push_back({"SRS_DAMPING", "1"});
-    if (setup.tissue.volumetric())
+    if (tissue.damped() && varied)
+        defines.push_back({"SRS_VARIED_DAMPING", "1"});
+    if (CellPass::needed(tissue))
+        defines.push_back({"SRS_CELL_PASS", "1"});
+    if (tissue.volumetric())
         defines.push_back({"SRS_VOLUME", "1"});
+    if (tissue.stiffens())
+        defines.push_back({"SRS_STIFFENING", "1"});
     if (options.normals)
         defines.push_back({"SRS_NORMALS", "1"});
     if (options.useTexelFetch)
@@ -34,6 +50,15 @@ void setKernelUniforms(gpu::Program& program, const SolverSetup& setup) {
     program.set("u_drag", float(1 - setup.tissue.airDrag * dt));
     program.set("u_gravity", glm::vec3(setup.gravity * (dt * dt / h)));
     program.set("u_damping", float(setup.tissue.dampingTime / dt));
+    std::vector<float> springs, densities, dampingTimes;
+    for (const MaterialShares& material : materialShares(setup.tissue)) {
+        springs.insert(springs.end(), material.spring.begin(), material.spring.end());
+        densities.push_back(float(material.density));
+        dampingTimes.push_back(float(material.dampingTime / dt));
+    }
+    program.set("u_springs", std::span<const float>(springs));
+    program.set("u_densities", std::span<const float>(densities));
+    program.set("u_dampingTimes", std::span<const float>(dampingTimes));
 }
 
 void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools) {

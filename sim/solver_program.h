@@ -11,11 +11,12 @@
 
 namespace serosa::sim {
 
-/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_TOOLS, SRS_EQUATION, SRS_DAMPING, SRS_VOLUME,
-/// SRS_NORMALS, SRS_TEXEL_FETCH.
+/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_TOOLS, SRS_EQUATION, SRS_MATERIALS,
+/// SRS_NORMALS, SRS_TEXEL_FETCH, and what the tissue asks for: SRS_DAMPING, SRS_VARIED_DAMPING,
+/// SRS_CELL_MATERIALS, SRS_FIBRES, SRS_CELL_PASS with SRS_VOLUME and SRS_STIFFENING.
 std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
                                              const KernelOptions& options);
-/// What does not change between steps: stiffness, drag, gravity, damping, in lattice units.
+/// What does not change between steps: stiffness, drag, gravity, damping, materials, in lattice units.
 void setKernelUniforms(gpu::Program& program, const SolverSetup& setup);
 /// Spheres and moves of one step.
 void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools);

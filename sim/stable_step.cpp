@@ -2,12 +2,16 @@
 // rest lattice comes from Lanczos (power) iteration. No cell assembly exceeds its stiffest lone cell, the
 // endless lattice has less: the estimate is kept between the two.
 //
+// Several materials: the iteration runs on the springs and cells as they are, each material at the steepest
+// tangent of its curve; no assembly exceeds the lone cell of its stiffest material.
+//
 // In units of k/m, with b the volumetric term's share (sim/volume_term.h): a lone cell breathes with
 //   springs: 12 edges f/4 stretch by 1, 12 diagonals f/2 by sqrt 2, sum w e^2 = 15 f; mass 8 f/8 * 3/4: 20;
 //   volume:  f b (div u)^2 = 9 f b over the same mass: 12 b.
 // In the endless lattice the plane wave of length 2 h along an axis has 12 from the springs and 4 b: the
 // divergence of each cell is 2 in it.
 #include "sim/solver.h"
+#include "sim/tissue_field.h"
 #include "sim/volume_term.h"
 
 #include <Eigen/Eigenvalues>
@@ -18,8 +22,7 @@ namespace serosa::sim {
 
 namespace {
 
-constexpr double kEndlessLattice = 12, kLoneCell = 20;        // omega^2 / (k/m), springs
-constexpr double kEndlessLatticeBulk = 4, kLoneCellBulk = 12; // more for each unit of bulkShare()
+constexpr double kEndlessLattice = 12, kEndlessLatticeBulk = 4; // omega^2 / (k/m): springs, a unit of bulk
 // Of the bound. Stretch and contact raise omega^2 beyond the rest lattice's. And Verlet with springs that
 // turn is unstable before the linear bound: at omega dt = sqrt(3) the stiffest modes resonate 3:1 with the
 // step, at sqrt(2) 4:1; an undamped ball with random velocities blows up at 0.85 of the bound. 0.7 keeps
@@ -36,7 +39,9 @@ struct SpringList {
     std::vector<double> weight;
 };
 
-SpringList collectSprings(const Lattice& lattice) {
+/// \param weight of the spring from a node in direction d
+template <class Weight>
+SpringList collectSprings(const Lattice& lattice, Weight weight) {
     SpringList springs;
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         for (int d = 0; d < 18; d += 2) {
@@ -46,15 +51,23 @@ SpringList collectSprings(const Lattice& lattice) {
             springs.first.push_back(std::uint32_t(node));
             springs.second.push_back(std::uint32_t(other));
             springs.direction.push_back(glm::normalize(glm::dvec3(kNeighbourOffsets[std::size_t(d)])));
-            springs.weight.push_back(lattice.springWeight(node, d));
+            springs.weight.push_back(weight(node, d));
         }
     return springs;
 }
 
+/// The stiffness of a lattice and its masses, in units of k and m of material 0.
+struct Operator {
+    const SpringList& springs;
+    const VolumeTerm& volume;
+    const std::vector<double>& cellFactors; // on the volumetric term
+    const std::vector<double>& inverseRootMass;
+};
+
 /// y = M^-1/2 K M^-1/2 x, in units of k/m.
-void applySymmetric(const SpringList& springs, const VolumeTerm& volume,
-                    const std::vector<double>& inverseRootMass, const std::vector<glm::dvec3>& x,
-                    std::vector<glm::dvec3>& y) {
+void applySymmetric(const Operator& stiffness, const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) {
+    const SpringList& springs = stiffness.springs;
+    const std::vector<double>& inverseRootMass = stiffness.inverseRootMass;
     std::fill(y.begin(), y.end(), glm::dvec3(0));
     for (std::size_t s = 0; s < springs.first.size(); ++s) {
         const std::uint32_t a = springs.first[s], b = springs.second[s];
@@ -64,12 +77,12 @@ void applySymmetric(const SpringList& springs, const VolumeTerm& volume,
         y[a] += inverseRootMass[a] * pull * n;
         y[b] -= inverseRootMass[b] * pull * n;
     }
-    if (volume.empty())
+    if (stiffness.volume.empty())
         return;
     std::vector<glm::dvec3> scaled(x.size()), forces(x.size(), glm::dvec3(0));
     for (std::size_t node = 0; node < x.size(); ++node)
         scaled[node] = inverseRootMass[node] * x[node];
-    volume.addLinear(scaled, forces);
+    stiffness.volume.addLinear(scaled, forces, stiffness.cellFactors);
     for (std::size_t node = 0; node < x.size(); ++node)
         y[node] += inverseRootMass[node] * forces[node];
 }
@@ -84,13 +97,11 @@ double dot(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
 /// Largest eigenvalue of M^-1 K in units of k/m, from below: Lanczos iteration, which is the power iteration
 /// with the best combination of all its powers. Plain powers miss the stiff modes of a few barely filled
 /// cells for hundreds of iterations. Lost orthogonality only repeats eigenvalues that have converged.
-double stiffestShare(const Lattice& lattice, const SpringList& springs, const VolumeTerm& volume) {
-    const std::size_t count = lattice.nodeCount();
-    std::vector<double> inverseRootMass(count);
+double stiffestShare(const Operator& stiffness) {
+    const std::size_t count = stiffness.inverseRootMass.size();
     std::vector<glm::dvec3> before(count, glm::dvec3(0)), now(count), next(count);
     std::uint32_t random = 12345;
     for (std::size_t i = 0; i < count; ++i) {
-        inverseRootMass[i] = 1 / std::sqrt(lattice.massShare(i));
         for (int axis = 0; axis < 3; ++axis) {
             random = random * 1664525u + 1013904223u;
             now[i][axis] = double(random >> 8) / double(1u << 24) - 0.5;
@@ -101,7 +112,7 @@ double stiffestShare(const Lattice& lattice, const SpringList& springs, const Vo
         v /= length;
     std::vector<double> diagonal, offDiagonal;
     while (diagonal.size() < kIterations) {
-        applySymmetric(springs, volume, inverseRootMass, now, next);
+        applySymmetric(stiffness, now, next);
         const double alpha = dot(now, next), beta = offDiagonal.empty() ? 0 : offDiagonal.back();
         for (std::size_t i = 0; i < count; ++i)
             next[i] -= alpha * now[i] + beta * before[i];
@@ -122,28 +133,91 @@ double stiffestShare(const Lattice& lattice, const SpringList& springs, const Vo
     return solver.eigenvalues().maxCoeff();
 }
 
+/// omega^2 of a lone full cell of one material, at its steepest tangent, in units of k/m of material 0.
+double loneCellShare(const MaterialShares& material) {
+    Eigen::Matrix<double, 24, 24> stiffness = Eigen::Matrix<double, 24, 24>::Zero();
+    const auto corner = [](int c) { return glm::ivec3(c & 1, (c >> 1) & 1, c >> 2); };
+    for (int a = 0; a < 8; ++a)
+        for (int d = 0; d < 18; d += 2) {
+            if (!((directionsInCell(a) >> d) & 1u))
+                continue;
+            const glm::ivec3 to = corner(a) + kNeighbourOffsets[std::size_t(d)];
+            const int b = to.x | to.y << 1 | to.z << 2;
+            const glm::dvec3 n = glm::normalize(glm::dvec3(kNeighbourOffsets[std::size_t(d)]));
+            const double weight = (d < 6 ? 0.25 : 0.5) * material.spring[std::size_t(d / 2)];
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) {
+                    const double entry = weight * n[i] * n[j];
+                    stiffness(3 * a + i, 3 * a + j) += entry;
+                    stiffness(3 * b + i, 3 * b + j) += entry;
+                    stiffness(3 * a + i, 3 * b + j) -= entry;
+                    stiffness(3 * b + i, 3 * a + j) -= entry;
+                }
+        }
+    Eigen::Matrix<double, 24, 1> divergence;
+    for (int c = 0; c < 8; ++c)
+        for (int i = 0; i < 3; ++i)
+            divergence[3 * c + i] = 0.25 * cornerSign(c)[i];
+    stiffness += material.bulk * divergence * divergence.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>> solver(stiffness,
+                                                                              Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().maxCoeff() * material.largestTangent() / (material.density / 8);
+}
+
 } // namespace
 
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime) {
     StableStep step;
     const double perShare = tissue.stiffnessOverMass(lattice.spacing);
-    const double bulk = tissue.bulkShare();
-    const SpringList springs = collectSprings(lattice);
-    step.springRate2 =
-        std::clamp(kIterationSlack * stiffestShare(lattice, springs, {}), kEndlessLattice, kLoneCell) *
-        perShare;
-    step.formulaRate2 = (kEndlessLattice + kEndlessLatticeBulk * bulk) * perShare;
+    const TissueField field(lattice, tissue);
+    const bool isotropic = tissue.materialCount() == 1 && !tissue.fibrous();
+    const bool volumetric = tissue.volumetric(), stiffens = tissue.stiffens();
+
+    std::vector<double> inverseRootMass, tangents; // one a cell
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        inverseRootMass.push_back(1 / std::sqrt(field.massShare(node)));
+    double loneCell = 0;
+    std::vector<bool> seen(field.materials().size(), false);
+    for (std::size_t cell = 0; cell < lattice.cells.size(); ++cell) {
+        const MaterialShares& material = field.materialOf(cell);
+        if (stiffens)
+            tangents.push_back(material.largestTangent());
+        if (!seen[lattice.cells[cell].material])
+            loneCell = std::max(loneCell, loneCellShare(material));
+        seen[lattice.cells[cell].material] = true;
+    }
+    const double bulk = isotropic ? tissue.bulkShare() : 0;
+    const double tangent = isotropic ? field.materials().front().largestTangent() : 1;
+    const auto rate = [&](const SpringList& springs, const VolumeTerm& volume, double floor) {
+        const Operator stiffness{springs, volume, tangents, inverseRootMass};
+        return std::clamp(kIterationSlack * stiffestShare(stiffness), isotropic ? floor : 0, loneCell) *
+               perShare;
+    };
+
+    const SpringList springs =
+        collectSprings(lattice, [&](std::size_t node, int d) { return field.springWeight(node, d); });
+    step.springRate2 = rate(springs, {}, kEndlessLattice);
+    step.formulaRate2 = (kEndlessLattice + kEndlessLatticeBulk * bulk) * tangent * perShare;
     step.stiffestRate2 = step.springRate2;
-    if (bulk > 0)
-        step.stiffestRate2 =
-            std::clamp(kIterationSlack *
-                           stiffestShare(lattice, springs, VolumeTerm(lattice, tissue, lattice.connections)),
-                       kEndlessLattice + kEndlessLatticeBulk * bulk, kLoneCell + kLoneCellBulk * bulk) *
-            perShare;
-    // Increments lag half a step, so damping tau of the springs' share lowers the bound: dt^2 omega^2 +
-    // 2 dt tau omega_s^2 < 4. The stiffest modes of both are nearly the same (see above), so the sum of the
-    // two largest rates is hardly more than the largest of the sum.
-    const double damped = tissue.dampingTime * step.springRate2 / step.stiffestRate2;
+    if (volumetric || stiffens) {
+        const SpringList stiffened = collectSprings(
+            lattice, [&](std::size_t node, int d) { return field.springWeight(node, d, tangents); });
+        step.stiffestRate2 = rate(stiffened, VolumeTerm(lattice, tissue, lattice.connections),
+                                  (kEndlessLattice + kEndlessLatticeBulk * bulk) * tangent);
+    }
+    step.dampingRate = tissue.dampingTime * step.springRate2;
+    const auto other = [&](const Material& material) { return material.dampingTime != tissue.dampingTime; };
+    if (std::any_of(tissue.others.begin(), tissue.others.end(), other)) {
+        const SpringList dampers =
+            collectSprings(lattice, [&](std::size_t node, int d) { return field.dampingWeight(node, d); });
+        step.dampingRate =
+            kIterationSlack * stiffestShare({dampers, {}, tangents, inverseRootMass}) * perShare;
+    }
+    // Increments lag half a step, so damping lowers the bound: dt^2 omega^2 + 2 dt delta < 4, delta the
+    // largest rate of M^-1 C (tau omega_s^2 of the springs' share where tau is one for all). The stiffest
+    // modes of both are nearly the same (see above), so the sum of the two largest rates is hardly more than
+    // the largest of the sum.
+    const double damped = step.dampingRate / step.stiffestRate2;
     step.bound = std::sqrt(damped * damped + 4 / step.stiffestRate2) - damped;
     step.margin = kMargin;
     step.stepsPerFrame = int(std::ceil(frameTime / (kMargin * step.bound)));

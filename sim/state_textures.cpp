@@ -22,6 +22,20 @@ std::array<std::uint32_t, 4> nodeInfoTexel(const Lattice& lattice, std::size_t n
             pack(0), pack(4), 0u};
 }
 
+/// Materials of the eight cells around each node, 4 bits each.
+std::vector<std::uint32_t> materialsAround(const Lattice& lattice) {
+    std::vector<std::uint32_t> materials;
+    const std::vector<std::int32_t> cells = cellsAround(lattice);
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        std::uint32_t word = 0;
+        for (std::size_t octant = 0; octant < 8; ++octant)
+            if (const std::int32_t cell = cells[8 * node + octant]; cell >= 0)
+                word |= std::uint32_t(lattice.cells[std::size_t(cell)].material) << (4 * octant);
+        materials.push_back(word);
+    }
+    return materials;
+}
+
 } // namespace
 
 Result<StateTextures> StateTextures::create(const Lattice& lattice, const std::vector<bool>& fixed,
@@ -52,9 +66,12 @@ Result<StateTextures> StateTextures::create(const Lattice& lattice, const std::v
         }
     }
     textures.info_.assign(layout.texels(), {0, 0, 0, 0});
-    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
-        textures.info_[textures.linearTexel(node)] =
-            nodeInfoTexel(lattice, node, !fixed.empty() && fixed[node]);
+    const std::vector<std::uint32_t> materials = materialsAround(lattice);
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        auto& info = textures.info_[textures.linearTexel(node)];
+        info = nodeInfoTexel(lattice, node, !fixed.empty() && fixed[node]);
+        info[3] = materials[node];
+    }
     textures.upload(restState(lattice));
     return textures;
 }

@@ -32,6 +32,7 @@ public:
     std::size_t bytes() const;
 
 private:
+    friend class CellPass;
     friend class CutPass;
     friend class TextureSolver;
     friend class FragmentSolver;

@@ -3,6 +3,7 @@
 // what they read, tools, and cuts. The two differ in what runs the kernel and in where it writes.
 
 #include "gpu/program.h"
+#include "sim/cell_pass.h"
 #include "sim/cut_pass.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
@@ -43,6 +44,7 @@ protected:
     SolverSetup setup_;
     StateTextures textures_;
     gpu::Program stepProgram_, graspProgram_;
+    CellPass cellPass_; // initialized where the tissue needs it
 
 private:
     /// Runs graspProgram_, whose inputs are set, over all texels into node info `to`.

@@ -1,4 +1,4 @@
-// See sim/volume_term.h. Twin of shaders/solver_volume.glsl and shaders/volume_cells.frag.
+// See sim/volume_term.h. Twin of shaders/cell_terms.glsl and shaders/solver_cells.glsl.
 #include "sim/volume_term.h"
 
 #include "shaders/shared_constants.h"
@@ -38,30 +38,35 @@ std::uint32_t directionsInCell(int corner) {
 }
 
 VolumeTerm::VolumeTerm(const Lattice& lattice, const Tissue& tissue,
-                       const std::vector<std::uint32_t>& connections)
-    : bulk_(tissue.bulkShare()), recovery_(tissue.recovery ? SRS_RECOVERY : 0) {
+                       const std::vector<std::uint32_t>& connections) {
     SEROSA_CHECK(connections.size() == lattice.nodeCount(), "connections of this lattice");
     if (!tissue.volumetric())
         return;
-    for (const LatticeCell& cell : lattice.cells) {
-        const Cell added{cornersOf(lattice, cell), cell.fill / 255.0};
+    const std::vector<MaterialShares> materials = materialShares(tissue);
+    for (std::size_t i = 0; i < lattice.cells.size(); ++i) {
+        const LatticeCell& cell = lattice.cells[i];
+        SEROSA_CHECK(cell.material < materials.size(), "cells of the tissue's materials");
+        const MaterialShares& material = materials[cell.material];
+        const Cell added{cornersOf(lattice, cell), i, cell.fill / 255.0, material.bulk, material.recovery};
         bool whole = true;
         for (int c = 0; c < 8; ++c) {
             const std::uint32_t needed = directionsInCell(c);
             whole = whole && (connections[added.corners[std::size_t(c)]] & needed) == needed;
         }
-        if (whole)
+        if (whole && (added.bulk > 0 || added.recovery > 0))
             cells_.push_back(added);
     }
 }
 
-void VolumeTerm::addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force) const {
+void VolumeTerm::addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force,
+                           const std::vector<double>& cellFactors) const {
     for (const Cell& cell : cells_) {
         const glm::dmat3 gradient = meanGradient(cell.corners, positions);
         const glm::dmat3 cofactor = cofactors(gradient);
         const double volume = glm::dot(gradient[0], cofactor[0]);
+        const double bulk = cellFactors.empty() ? cell.bulk : cell.bulk * cellFactors[cell.index];
         const double pressure =
-            bulk_ * (volume - 1) * softening(cofactor) - recovery_ * std::max(0.0, SRS_COLLAPSED - volume);
+            bulk * (volume - 1) * softening(cofactor) - cell.recovery * std::max(0.0, SRS_COLLAPSED - volume);
         for (int c = 0; c < 8; ++c)
             force[cell.corners[std::size_t(c)]] -= 0.25 * cell.fill * pressure * (cofactor * cornerSign(c));
     }
@@ -69,29 +74,45 @@ void VolumeTerm::addForces(const std::vector<glm::dvec3>& positions, std::vector
 
 double VolumeTerm::energy(const std::vector<glm::dvec3>& positions) const {
     double sum = 0;
-    for (const Cell& cell : cells_) {
-        const glm::dmat3 gradient = meanGradient(cell.corners, positions);
-        const glm::dmat3 cofactor = cofactors(gradient);
-        const double volume = glm::dot(gradient[0], cofactor[0]);
-        const double collapse = std::max(0.0, SRS_COLLAPSED - volume);
-        sum += 0.5 * cell.fill *
-               (bulk_ * softening(cofactor) * (volume - 1) * (volume - 1) + recovery_ * collapse * collapse);
-    }
+    for (const Cell& cell : cells_)
+        sum += cell.fill * volumeEnergy(meanGradient(cell.corners, positions), cell.bulk, cell.recovery);
     return sum;
 }
 
-void VolumeTerm::addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) const {
+double VolumeTerm::recoveryEnergy(const std::vector<glm::dvec3>& positions) const {
+    double sum = 0;
+    for (const Cell& cell : cells_)
+        if (cell.recovery > 0)
+            sum += cell.fill * volumeEnergy(meanGradient(cell.corners, positions), 0, cell.recovery);
+    return sum;
+}
+
+void VolumeTerm::addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y,
+                           const std::vector<double>& cellFactors) const {
     for (const Cell& cell : cells_) {
+        const double bulk = cellFactors.empty() ? cell.bulk : cell.bulk * cellFactors[cell.index];
         double divergence = 0;
         for (int c = 0; c < 8; ++c)
             divergence += 0.25 * glm::dot(cornerSign(c), x[cell.corners[std::size_t(c)]]);
         for (int c = 0; c < 8; ++c)
-            y[cell.corners[std::size_t(c)]] += (0.25 * cell.fill * bulk_ * divergence) * cornerSign(c);
+            y[cell.corners[std::size_t(c)]] += (0.25 * cell.fill * bulk * divergence) * cornerSign(c);
     }
 }
 
+double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
+    const glm::dmat3 cofactor = cofactors(gradient);
+    const double volume = glm::dot(gradient[0], cofactor[0]);
+    const double collapse = std::max(0.0, SRS_COLLAPSED - volume);
+    return 0.5 * (bulk * softening(cofactor) * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
+}
+
 Status supportsTissue(const std::string& solver, const Tissue& tissue) {
-    if (!tissue.volumetric() || solver == "reference" || solver == "fragment")
+    if (solver != "cpu")
+        return {};
+    if (tissue.materialCount() > 1 || tissue.stiffens() || tissue.fibrous())
+        return Error{
+            "the cpu solver has one linear material without fibres: take --solver fragment or reference"};
+    if (!tissue.volumetric())
         return {};
     return Error{"the " + solver + " solver has no volumetric term, which " +
                  (tissue.poisson > 0.25 ? "a Poisson's ratio above 0.25" : "recovery") +

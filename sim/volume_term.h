@@ -6,6 +6,8 @@
 //   g_i = (+-1, +-1, +-1)/4 the corner gradients,  F = sum_i x_i g_i^T (the mean over the cell),  J = det F,
 // the energy f W(J) and the corner forces -f p cof(F) g_i,  p = W'(J):
 //   p = b (J - 1) q  -  r max(0, J0 - J),      b = bulkShare(),  r = kRecovery, J0 = kCollapsed.
+// With several materials k is that of material 0, and b and r are MaterialShares::bulk and ::recovery of the
+// cell's own. A cell that has stiffened (sim/stiffening.h) has its factor on b.
 // Linearized this is the energy f b/2 (div u)^2 h^3, so lambda = (1 + b) k/h and mu = k/h stay as they were.
 // One point a cell is a selective reduced integration: nothing locks at Poisson's ratio 0.49, and the springs
 // resist the modes that the mean does not see. sum_i g_i = 0 keeps momentum; cof(F) F^T = J 1 is symmetric,
@@ -39,20 +41,29 @@ public:
 
     bool empty() const { return cells_.empty(); }
     /// Adds the corner forces, in units of k h, to `force`, one a node.
-    void addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force) const;
+    /// \param cellFactors one a cell of the lattice: what its b is multiplied by; empty: 1
+    void addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force,
+                   const std::vector<double>& cellFactors = {}) const;
     /// In units of k h^2. Where q < 1 it is that of the force at the same cof(F).
     double energy(const std::vector<glm::dvec3>& positions) const;
+    /// The part of it that recovery adds.
+    double recoveryEnergy(const std::vector<glm::dvec3>& positions) const;
     /// Adds y = K x of the linearized term, in units of k.
-    void addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y) const;
+    /// \param cellFactors as above
+    void addLinear(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& y,
+                   const std::vector<double>& cellFactors = {}) const;
 
 private:
     struct Cell {
         CellCorners corners;
-        double fill;
+        std::size_t index; // in lattice.cells
+        double fill, bulk, recovery;
     };
     std::vector<Cell> cells_;
-    double bulk_ = 0, recovery_ = 0;
 };
+
+/// W of one cell, in units of k h^2, from its mean deformation gradient.
+double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery);
 
 /// The directions of the 18 that stay inside a cell from its corner c: 3 edges and 3 face diagonals.
 std::uint32_t directionsInCell(int corner);

@@ -270,8 +270,4 @@ TEST_F(GlComputeSolver, refusesWhatDoesNotFit) {
     const auto solver = sim::makeComputeSolver(setup, options);
     ASSERT_FALSE(solver.ok());
     EXPECT_NE(solver.error().message.find("19881"), std::string::npos) << solver.error().message;
-    setup.tissue.poisson = 0.45; // its passes have no volumetric term
-    const auto nearlyIncompressible = sim::makeComputeSolver(setup);
-    ASSERT_FALSE(nearlyIncompressible.ok());
-    EXPECT_NE(nearlyIncompressible.error().message.find("volumetric"), std::string::npos);
 }
