@@ -170,13 +170,50 @@ glm::dvec3 Random::within(double radius, double low) {
 
 sim::Tissue randomTissue(Random& random) {
     sim::Tissue tissue;
-    tissue.young = random.logNumber(500, 1e5);
-    tissue.poisson = random.chance(0.4) ? 0.25 : random.chance(0.2) ? 0.49 : random.number(0.25, 0.49);
-    tissue.density = random.number(900, 1200);
-    tissue.dampingTime = random.chance(0.4) ? 0 : random.logNumber(5e-5, 2e-3);
+    const auto fill = [&random](sim::Material& material) {
+        material.young = random.logNumber(500, 1e5);
+        material.poisson = random.chance(0.4) ? 0.25 : random.chance(0.2) ? 0.49 : random.number(0.25, 0.49);
+        material.density = random.number(900, 1200);
+        material.dampingTime = random.chance(0.4) ? 0 : random.logNumber(5e-5, 2e-3);
+        if (random.chance(0.15)) {
+            material.fibre = random.direction();
+            material.fibreYoung = random.number(1, 5) * material.young;
+        }
+    };
+    fill(tissue);
     tissue.airDrag = random.chance(0.7) ? 0 : random.number(0, 20);
     tissue.recovery = random.chance(0.3);
+    for (int others = random.chance(0.3) ? random.whole(1, 2) : 0; others > 0; --others) {
+        sim::Material other;
+        fill(other);
+        other.name = "other";
+        tissue.others.push_back(other);
+    }
     return tissue;
+}
+
+void stiffenSome(Random& random, sim::Tissue& tissue) {
+    for (std::size_t i = 0; i < tissue.materialCount(); ++i) {
+        sim::Material& material = i == 0 ? tissue : tissue.others[i - 1];
+        if (random.chance(0.2)) {
+            const double toe = random.number(0.02, 0.1), stress = toe * material.young,
+                         slope = random.number(0.5, 6) * material.young;
+            material.curve = {{toe, stress}, {2 * toe, stress + toe * slope}};
+        }
+        if (random.chance(0.15))
+            material.strainLimit = random.number(0.25, 0.6);
+    }
+}
+
+void paintMaterials(Random& random, const sim::Tissue& tissue, sim::Lattice& lattice) {
+    const glm::dvec3 half = 0.5 * glm::dvec3(lattice.nodeDims);
+    for (std::size_t material = 1; material < tissue.materialCount(); ++material) {
+        const glm::dvec3 centre = half + random.within(1) * half;
+        const double radius = random.number(0.2, 0.8) * std::max({half.x, half.y, half.z});
+        for (sim::LatticeCell& cell : lattice.cells)
+            if (glm::length(glm::dvec3(cell.grid) + 0.5 - centre) < radius)
+                cell.material = std::uint8_t(material);
+    }
 }
 
 Result<sim::Lattice> randomLattice(Random& random, std::size_t mostNodes) {
@@ -195,11 +232,13 @@ Result<sim::Lattice> randomLattice(Random& random, std::size_t mostNodes) {
 }
 
 std::string RandomScenario::words() const {
-    std::string text = "seed " + std::to_string(seed) + ": " + std::to_string(lattice.nodeCount()) +
-                       " nodes, h " + shortNumber(1e3 * lattice.spacing) + " mm, nu " +
-                       shortNumber(setup.tissue.poisson) + ", " + shortNumber(setup.tissue.young) +
-                       " Pa, damping " + shortNumber(1e3 * setup.tissue.dampingTime) + " ms" +
-                       (setup.tissue.recovery ? ", recovery" : "");
+    std::string text =
+        "seed " + std::to_string(seed) + ": " + std::to_string(lattice.nodeCount()) + " nodes, h " +
+        shortNumber(1e3 * lattice.spacing) + " mm, nu " + shortNumber(setup.tissue.poisson) + ", " +
+        shortNumber(setup.tissue.young) + " Pa, damping " + shortNumber(1e3 * setup.tissue.dampingTime) +
+        " ms" + (setup.tissue.recovery ? ", recovery" : "") + (setup.tissue.stiffens() ? ", stiffens" : "") +
+        (setup.tissue.fibrous() ? ", fibres" : "") +
+        (setup.tissue.others.empty() ? "" : ", several materials");
     for (const sim::Tool& tool : setup.tools)
         text += tool.mode == sim::ToolMode::push ? ", push" : ", grasp";
     text += ", " + std::to_string(cuts.size()) + " cuts";
@@ -215,6 +254,8 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
     sim::SolverSetup& setup = scenario->setup;
     setup.lattice = &lattice;
     setup.tissue = randomTissue(random);
+    stiffenSome(random, setup.tissue);
+    paintMaterials(random, setup.tissue, scenario->lattice);
     scenario->step = sim::stableStep(lattice, setup.tissue, kFrameTime);
     setup.timeStep = scenario->step.timeStep;
     const double end = steps * setup.timeStep;

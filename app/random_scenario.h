@@ -32,8 +32,13 @@ private:
     std::mt19937 engine_;
 };
 
-/// Soft to stiff, Poisson's ratio 0.25 (two in five) to 0.49, with and without damping and recovery.
+/// Soft to stiff, Poisson's ratio 0.25 (two in five) to 0.49, with and without damping and recovery; one to
+/// three materials, some with fibres. Linear: a curve's bound on the step is that of its steepest part.
 sim::Tissue randomTissue(Random& random);
+/// Gives some of the materials a curve or a strain limit.
+void stiffenSome(Random& random, sim::Tissue& tissue);
+/// Gives each of the materials but the first a ball of cells.
+void paintMaterials(Random& random, const sim::Tissue& tissue, sim::Lattice& lattice);
 
 /// A phantom or a blob of cells with fills of its own (full, random, a few of 1/255, or all of 1/255), 60 to
 /// `mostNodes` nodes, spacing 1 to 6 mm.

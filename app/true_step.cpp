@@ -1,6 +1,8 @@
 // See app/true_step.h.
 #include "app/true_step.h"
 
+#include "sim/tissue_field.h"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <functional>
@@ -28,14 +30,15 @@ public:
         setup_.timeStep = sim::stableStep(lattice, tissue, 1).timeStep; // any
         solver_ = sim::makeReferenceSolver(setup_);
         rest_ = sim::restState(lattice);
+        const sim::TissueField field(lattice, tissue);
         rootMass_.resize(Eigen::Index(3 * lattice.nodeCount()));
         for (Eigen::Index i = 0; i < rootMass_.size(); ++i)
-            rootMass_[i] = std::sqrt(lattice.massShare(std::size_t(i / 3)));
+            rootMass_[i] = std::sqrt(field.massShare(std::size_t(i / 3)));
     }
 
     Eigen::Index size() const { return rootMass_.size(); }
     double drag() const { return drag_; }
-    bool damped() const { return setup_.tissue.dampingTime > 0; }
+    bool damped() const { return setup_.tissue.damped(); }
 
     VectorXd stiffness(const VectorXd& x) {
         const VectorXd scaled = x.cwiseQuotient(rootMass_);

@@ -168,6 +168,7 @@ Status stepBounds(const VerifyOptions& options, CheckList& checks) {
             return;
         }
         sim::Tissue tissue = randomTissue(random);
+        paintMaterials(random, tissue, *lattice);
         const double bound = sim::stableStep(*lattice, tissue, 1).bound;
         if (options.inject.fault == Fault::stiffness)
             tissue.young *= options.inject.factor;

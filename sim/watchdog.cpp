@@ -31,8 +31,8 @@ bool finite(const glm::dvec3& v) {
 
 /// Largest eigenvalue of the sum over a node's springs of w (n n^T + across (1 - n n^T)); at rest where
 /// `positions` is null.
-double stiffness(const Lattice& lattice, std::uint32_t connections, std::size_t node,
-                 const std::vector<glm::dvec3>* positions) {
+double stiffness(const Lattice& lattice, const TissueField& field, std::uint32_t connections,
+                 std::size_t node, const std::vector<glm::dvec3>* positions) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
         const std::int64_t other = connections >> d & 1u ? lattice.neighbour(node, d) : -1;
@@ -43,7 +43,7 @@ double stiffness(const Lattice& lattice, std::uint32_t connections, std::size_t 
         const double length = std::max(glm::length(along), 1e-9),
                      across = std::max(0.0, 1 - restLength(d) / length);
         const Eigen::Vector3d n(along.x / length, along.y / length, along.z / length);
-        sum += lattice.springWeight(node, d) *
+        sum += field.springWeight(node, d) *
                ((1 - across) * n * n.transpose() + across * Eigen::Matrix3d::Identity());
     }
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2];
@@ -91,12 +91,13 @@ std::string Alarm::text() const {
 
 Watchdog::Watchdog(const SolverSetup& setup, const StableStep& step) : setup_(setup), step_(step) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
+    field_ = std::make_shared<const TissueField>(*setup.lattice, setup.tissue);
     const Lattice& lattice = *setup.lattice;
     double stretched = 0; // of all springs at a strain of 1, k h^2
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         for (int d = 0; d < SRS_NEIGHBOURS; d += 2)
             if (lattice.neighbour(node, d) >= 0)
-                stretched += 0.5 * lattice.springWeight(node, d) * (d < 6 ? 1 : 2);
+                stretched += 0.5 * field_->springWeight(node, d) * (d < 6 ? 1 : 2);
     floor_ = stretched * kRoundingStrain * kRoundingStrain * setup.tissue.springConstant(lattice.spacing) *
              lattice.spacing * lattice.spacing;
 }
@@ -112,8 +113,8 @@ void Watchdog::start(const LatticeState& state) {
             const glm::dvec3& at = state.positions[node];
             const glm::dvec3 thrown =
                 speed * (tool.apply(at, at, false, setup_.lattice->restDepth(node)) - at);
-            budget_ += 1.5 * setup_.tissue.nodeMass(setup_.lattice->spacing) *
-                       setup_.lattice->massShare(node) * glm::dot(thrown, thrown);
+            budget_ += 1.5 * setup_.tissue.nodeMass(setup_.lattice->spacing) * field_->massShare(node) *
+                       glm::dot(thrown, thrown);
         }
     energyShare_ = 0;
 }
@@ -180,15 +181,15 @@ std::optional<Alarm> Watchdog::checkStretch(const LatticeState& state) const {
         }
         if (!stretched)
             continue;
-        const double rest = stiffness(lattice, lattice.connections[node], node, nullptr),
-                     share = stiffness(lattice, connections[node], node, &state.positions) / rest;
+        const double rest = stiffness(lattice, *field_, lattice.connections[node], node, nullptr),
+                     share = stiffness(lattice, *field_, connections[node], node, &state.positions) / rest;
         if (share > most) {
             most = share;
             worst = node;
         }
     }
     const double rate2 = step_.stiffestRate2 + (most - 1) * step_.springRate2,
-                 damped = setup_.tissue.dampingTime * step_.springRate2, dt = setup_.timeStep;
+                 damped = step_.dampingRate + setup_.tissue.airDrag, dt = setup_.timeStep;
     if (most == 1 || dt * dt * rate2 + 2 * dt * damped < 4)
         return {};
     Alarm alarm = alarmAt(AlarmKind::step, worst, state);
@@ -232,14 +233,14 @@ std::size_t Watchdog::mostEnergetic(const LatticeState& state) const {
     double largest = -1;
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
         const glm::dvec3& u = state.increments[node];
-        double energy = lattice.massShare(node) * kinetic * glm::dot(u, u); // twice, in k h^2
+        double energy = field_->massShare(node) * kinetic * glm::dot(u, u); // twice, in k h^2
         for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
             const std::int64_t other = connections[node] >> d & 1u ? lattice.neighbour(node, d) : -1;
             if (other < 0)
                 continue;
             const double stretch =
                 glm::length(state.positions[node] - state.positions[std::size_t(other)]) - restLength(d);
-            energy += 0.5 * lattice.springWeight(node, d) * stretch * stretch; // half of it is the other's
+            energy += 0.5 * field_->springWeight(node, d) * stretch * stretch; // half of it is the other's
         }
         if (energy > largest) {
             largest = energy;

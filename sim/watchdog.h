@@ -17,8 +17,10 @@
 
 #include "sim/lattice_state.h"
 #include "sim/solver.h"
+#include "sim/tissue_field.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,9 +68,10 @@ private:
 
     SolverSetup setup_;
     StableStep step_;
-    double budget_ = 0;      // J, gravity's potential included
-    double floor_ = 0;       // J: below, rounding
-    double energyShare_ = 0; // at the last check
+    std::shared_ptr<const TissueField> field_; // not null; copies share it
+    double budget_ = 0;                        // J, gravity's potential included
+    double floor_ = 0;                         // J: below, rounding
+    double energyShare_ = 0;                   // at the last check
 };
 
 } // namespace serosa::sim
