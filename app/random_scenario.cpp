@@ -89,7 +89,9 @@ std::vector<sim::ToolKey> randomPath(Random& random, double time, const glm::dve
     std::vector<sim::ToolKey> keys{{time, start}};
     while (keys.size() < 2 || (keys.back().time < end && keys.size() < 40)) {
         const glm::dvec3 to = bounds.middle + random.within(reach);
-        const double speed = random.chance(0.3) ? kFastestTool : random.logNumber(0.02, kFastestTool);
+        const bool first = keys.size() == 1; // must arrive in time to do something
+        const double speed =
+            random.chance(first ? 0.7 : 0.3) ? kFastestTool : random.logNumber(0.02, kFastestTool);
         const double path = std::max(glm::length(to - keys.back().at), 1e-4);
         keys.push_back({keys.back().time + path / speed, to});
     }
@@ -264,9 +266,9 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
         setup.gravity = random.chance(0.5) ? 9.81 * random.direction() : random.within(30);
     if (random.chance(0.7))
         setup.fixed = randomFixed(random, lattice, bounds);
-    for (int tools = random.whole(0, 3); tools > 0; --tools)
+    for (int tools = std::min(3, random.whole(0, 5)); tools > 0; --tools)
         setup.tools.push_back(randomTool(random, lattice, bounds, end));
-    for (int cuts = random.chance(0.5) ? random.whole(1, 4) : 0; cuts > 0; --cuts)
+    for (int cuts = random.chance(0.6) ? random.whole(1, 4) : 0; cuts > 0; --cuts)
         scenario->cuts.push_back(randomCut(random, lattice, bounds, end));
     if (random.chance(0.25))
         scenario->tearStrain = random.number(0.2, 1.5);
