@@ -98,11 +98,14 @@ std::vector<sim::ToolKey> randomPath(Random& random, double time, const glm::dve
     return keys;
 }
 
-sim::Tool randomTool(Random& random, const sim::Lattice& lattice, const Bounds& bounds, double end) {
+/// At most one sphere pushes: two that run into each other throw what lies between them from one into the
+/// other.
+sim::Tool randomTool(Random& random, bool mayPush, const sim::Lattice& lattice, const Bounds& bounds,
+                     double end) {
     sim::Tool tool;
     tool.name = "tool";
     tool.radius = random.number(1.5, 4) * lattice.spacing;
-    if (random.chance(0.6)) {
+    if (mayPush) {
         // From where it touches nothing.
         const glm::dvec3 start =
             bounds.middle + random.direction() * (bounds.radius + tool.radius + 2 * lattice.spacing);
@@ -266,8 +269,10 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
         setup.gravity = random.chance(0.5) ? 9.81 * random.direction() : random.within(30);
     if (random.chance(0.7))
         setup.fixed = randomFixed(random, lattice, bounds);
-    for (int tools = std::min(3, random.whole(0, 5)); tools > 0; --tools)
-        setup.tools.push_back(randomTool(random, lattice, bounds, end));
+    if (random.chance(0.8))
+        setup.tools.push_back(randomTool(random, true, lattice, bounds, end));
+    for (int grasps = random.whole(0, 2); grasps > 0; --grasps)
+        setup.tools.push_back(randomTool(random, false, lattice, bounds, end));
     for (int cuts = random.chance(0.6) ? random.whole(1, 4) : 0; cuts > 0; --cuts)
         scenario->cuts.push_back(randomCut(random, lattice, bounds, end));
     if (random.chance(0.25))

@@ -19,6 +19,7 @@ namespace {
 constexpr double kEnergyTolerance = 4;
 // Of all springs: energy at this strain everywhere is what float32 positions may invent.
 constexpr double kRoundingStrain = 1e-3;
+constexpr double kViolentJump = 0.5; // spacings a step, of a node against a neighbour
 constexpr double kLookStretch = 1.5; // nodes without a spring this many times its rest length need no look
 
 double restLength(int direction) {
@@ -147,10 +148,11 @@ void Watchdog::addWork(double from, double to, const std::vector<glm::dvec3>& im
 std::optional<Alarm> Watchdog::check(const LatticeState& state) {
     SEROSA_CHECK(state.positions.size() == setup_.lattice->nodeCount(), "a state of this lattice");
     std::optional<Alarm> alarm = checkFinite(state);
-    if (!alarm)
+    const bool violent = !alarm && largestJump(state) > kViolentJump;
+    if (violent)
         alarm = checkStretch(state);
     if (!alarm)
-        alarm = checkEnergy(state);
+        alarm = checkEnergy(state, violent);
     return alarm;
 }
 
@@ -159,6 +161,22 @@ std::optional<Alarm> Watchdog::checkFinite(const LatticeState& state) const {
         if (!finite(state.positions[node]) || !finite(state.increments[node]))
             return alarmAt(AlarmKind::notFinite, node, state);
     return {};
+}
+
+double Watchdog::largestJump(const LatticeState& state) const {
+    const Lattice& lattice = *setup_.lattice;
+    const std::vector<std::uint32_t>& connections =
+        state.connections.empty() ? lattice.connections : state.connections;
+    double largest2 = 0;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        for (int d = 0; d < SRS_NEIGHBOURS; d += 2) {
+            const std::int64_t other = connections[node] >> d & 1u ? lattice.neighbour(node, d) : -1;
+            if (other < 0)
+                continue;
+            const glm::dvec3 jump = state.increments[node] - state.increments[std::size_t(other)];
+            largest2 = std::max(largest2, glm::dot(jump, jump));
+        }
+    return std::sqrt(largest2);
 }
 
 std::optional<Alarm> Watchdog::checkStretch(const LatticeState& state) const {
@@ -198,12 +216,12 @@ std::optional<Alarm> Watchdog::checkStretch(const LatticeState& state) const {
     return alarm;
 }
 
-std::optional<Alarm> Watchdog::checkEnergy(const LatticeState& state) {
+std::optional<Alarm> Watchdog::checkEnergy(const LatticeState& state, bool violent) {
     const Energies now = energies(setup_, state);
     const double inside = now.kinetic + now.elastic,
                  available = std::max(0.0, budget_ - now.gravitational) + floor_;
     energyShare_ = inside / available;
-    if (inside > kEnergyTolerance * available) {
+    if (violent && inside > kEnergyTolerance * available) {
         Alarm alarm = alarmAt(AlarmKind::energy, mostEnergetic(state), state);
         alarm.measured = inside;
         alarm.allowed = available;

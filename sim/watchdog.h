@@ -62,7 +62,9 @@ public:
 private:
     std::optional<Alarm> checkFinite(const LatticeState& state) const;
     std::optional<Alarm> checkStretch(const LatticeState& state) const;
-    std::optional<Alarm> checkEnergy(const LatticeState& state);
+    std::optional<Alarm> checkEnergy(const LatticeState& state, bool violent);
+    /// Of the increments of two joined nodes, the largest difference, spacings a step.
+    double largestJump(const LatticeState& state) const;
     Alarm alarmAt(AlarmKind kind, std::size_t node, const LatticeState& state) const;
     std::size_t mostEnergetic(const LatticeState& state) const;
 
