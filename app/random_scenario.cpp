@@ -173,13 +173,16 @@ glm::dvec3 Random::within(double radius, double low) {
     return to * (number(low, 1) * radius);
 }
 
-sim::Tissue randomTissue(Random& random) {
+sim::Tissue randomTissue(Random& random, Wildness wildness) {
     sim::Tissue tissue;
-    const auto fill = [&random](sim::Material& material) {
-        material.young = random.logNumber(500, 1e5);
+    const bool damped = wildness == Wildness::damped;
+    const auto fill = [&random, damped](sim::Material& material) {
+        material.young = random.logNumber(damped ? 2000 : 500, 1e5);
         material.poisson = random.chance(0.4) ? 0.25 : random.chance(0.2) ? 0.49 : random.number(0.25, 0.49);
         material.density = random.number(900, 1200);
-        material.dampingTime = random.chance(0.4) ? 0 : random.logNumber(5e-5, 2e-3);
+        material.dampingTime = damped               ? random.logNumber(2e-4, 2e-3)
+                               : random.chance(0.4) ? 0
+                                                    : random.logNumber(5e-5, 2e-3);
         if (random.chance(0.15)) {
             material.fibre = random.direction();
             material.fibreYoung = random.number(1, 5) * material.young;
@@ -250,7 +253,8 @@ std::string RandomScenario::words() const {
     return text + (tearStrain > 0 ? ", tears at " + shortNumber(tearStrain) : "");
 }
 
-Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps) {
+Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps,
+                                                       Wildness wildness) {
     Random random(seed);
     auto scenario = std::make_unique<RandomScenario>();
     scenario->seed = seed;
@@ -258,7 +262,7 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
     const sim::Lattice& lattice = scenario->lattice;
     sim::SolverSetup& setup = scenario->setup;
     setup.lattice = &lattice;
-    setup.tissue = randomTissue(random);
+    setup.tissue = randomTissue(random, wildness);
     stiffenSome(random, setup.tissue);
     paintMaterials(random, setup.tissue, scenario->lattice);
     scenario->step = sim::stableStep(lattice, setup.tissue, kFrameTime);

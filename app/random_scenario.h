@@ -32,9 +32,15 @@ private:
     std::mt19937 engine_;
 };
 
+/// `damped` is tissue of 2 kPa and more, with waves faster than any tool here, and of at least 0.2 ms of
+/// damping. `any` goes down to 500 Pa, below the speed of its own waves, and to no damping at all: nothing
+/// takes away what thousands of steps of folding and snapping add, so that some of it must run away and be
+/// stopped.
+enum class Wildness { damped, any };
+
 /// Soft to stiff, Poisson's ratio 0.25 (two in five) to 0.49, with and without damping and recovery; one to
 /// three materials, some with fibres. Linear: a curve's bound on the step is that of its steepest part.
-sim::Tissue randomTissue(Random& random);
+sim::Tissue randomTissue(Random& random, Wildness wildness);
 /// Gives some of the materials a curve or a strain limit.
 void stiffenSome(Random& random, sim::Tissue& tissue);
 /// Gives each of the materials but the first a ball of cells.
@@ -61,6 +67,7 @@ struct RandomScenario {
 };
 
 /// \param steps how many it will take: keys of tools and cuts lie within. Errors: of the phantoms.
-Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps);
+Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps,
+                                                       Wildness wildness);
 
 } // namespace serosa::app

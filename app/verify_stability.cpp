@@ -88,8 +88,10 @@ Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int st
 
 /// A scenario on the solver that suits it. \param onGpu its turn is on the GPU: needs a context in this
 /// thread.
-Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int steps, bool onGpu) {
-    SEROSA_ASSIGN(const std::unique_ptr<RandomScenario> scenario, randomScenario(seed, kMostNodes, steps));
+Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int steps, Wildness wildness,
+                         bool onGpu) {
+    SEROSA_ASSIGN(const std::unique_ptr<RandomScenario> scenario,
+                  randomScenario(seed, kMostNodes, steps, wildness));
     const bool simple = sim::supportsTissue("cpu", scenario->setup.tissue).ok();
     if ((!simple && seed % kOnGpu == 0) != onGpu)
         return Outcome{};
@@ -109,34 +111,43 @@ Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int s
     return play(*scenario, *solver, steps);
 }
 
+Result<std::vector<Outcome>> playSeeds(const VerifyOptions& options, std::uint32_t count, int steps,
+                                       Wildness wildness) {
+    std::vector<Result<Outcome>> results(count, Outcome{});
+    tbb::parallel_for(std::uint32_t(0), count, [&](std::uint32_t i) {
+        results[i] = playSeed(options, kFirstSeed + i, steps, wildness, false);
+    });
+    std::vector<Outcome> outcomes;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (results[i] && results[i]->words.empty())
+            results[i] = playSeed(options, kFirstSeed + i, steps, wildness, true);
+        if (!results[i])
+            return results[i].error();
+        outcomes.push_back(*results[i]);
+    }
+    return outcomes;
+}
+
 Status scenarios(const VerifyOptions& options, CheckList& checks) {
     const std::uint32_t count = options.full ? 200 : 20;
     const int steps = options.full ? 10000 : 500;
-    std::vector<Result<Outcome>> results(count, Outcome{});
-    tbb::parallel_for(std::uint32_t(0), count,
-                      [&](std::uint32_t i) { results[i] = playSeed(options, kFirstSeed + i, steps, false); });
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (results[i] && results[i]->words.empty())
-            results[i] = playSeed(options, kFirstSeed + i, steps, true);
-
+    SEROSA_ASSIGN(const std::vector<Outcome> results, playSeeds(options, count, steps, Wildness::damped));
     double notFinite = 0, alarms = 0, share = 0, touched = 0, volumetric = 0, fastest = 0;
     std::size_t cut = 0;
     std::string failures, worst;
-    for (const Result<Outcome>& result : results) {
-        if (!result)
-            return result.error();
-        notFinite += !result->finite;
-        touched += result->touched;
-        volumetric += result->volumetric;
-        cut += result->springsCut;
-        fastest = std::max(fastest, result->fastestTool);
-        if (result->energyShare > share) {
-            share = result->energyShare;
-            worst = result->words;
+    for (const Outcome& result : results) {
+        notFinite += !result.finite;
+        touched += result.touched;
+        volumetric += result.volumetric;
+        cut += result.springsCut;
+        fastest = std::max(fastest, result.fastestTool);
+        if (result.energyShare > share) {
+            share = result.energyShare;
+            worst = result.words;
         }
-        if (!result->failure.empty()) {
+        if (!result.failure.empty()) {
             ++alarms;
-            failures += "; " + result->failure;
+            failures += "; " + result.failure;
         }
     }
     const std::string of = std::to_string(count) + " random scenarios, " + std::to_string(steps) + " steps: ";
@@ -167,7 +178,7 @@ Status stepBounds(const VerifyOptions& options, CheckList& checks) {
             ratios[i].status = lattice.error();
             return;
         }
-        sim::Tissue tissue = randomTissue(random);
+        sim::Tissue tissue = randomTissue(random, Wildness::any);
         paintMaterials(random, tissue, *lattice);
         const double bound = sim::stableStep(*lattice, tissue, 1).bound;
         if (options.inject.fault == Fault::stiffness)
