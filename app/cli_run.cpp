@@ -261,7 +261,7 @@ void addRun(CLI::App& app, std::function<Result<int>()>& action) {
         "  serosa run heart.toml\n"
         "  serosa run heart.toml --from heart-out/snapshot_000060.serosa --out later\n"
         "  serosa run --model liver.stl --length-unit mm --nodes 5000 --frames 60 --out liver\n"
-        "Exit codes: 0 done, 1 the state ran away, 2 bad input, 5 no OpenGL context, 130 interrupted.");
+        "Exit codes: 0 done, 1 an organ was stopped, 2 bad input, 5 no OpenGL context, 130 interrupted.");
     command->callback([given, &action] {
         action = [given]() -> Result<int> {
             SEROSA_ASSIGN(const RunOptions options, runOptions("run", *given));
@@ -299,7 +299,7 @@ void addView(CLI::App& app, std::function<Result<int>()>& action) {
         "Examples:\n"
         "  serosa view heart.toml\n"
         "  serosa view --model liver.stl --length-unit mm --nodes 5000\n"
-        "Exit codes: 0 closed, 1 the state ran away, 2 bad input, 5 no display or no OpenGL, 130 "
+        "Exit codes: 0 closed, 1 an organ was stopped, 2 bad input, 5 no display or no OpenGL, 130 "
         "interrupted.");
     command->callback([given, &action] {
         action = [given]() -> Result<int> {

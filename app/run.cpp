@@ -94,7 +94,8 @@ public:
                                      double(output.width) / output.height);
     }
 
-    /// All frames, until the end, an interruption or a state that is not finite (`record().end` says which).
+    /// All frames, until the end or an interruption (`record().end` says which). An organ that the watchdog
+    /// stops stays as it was last good.
     Status frames(const InterruptGuard& interrupt) {
         if (!surfaceFrames_.empty())
             for (std::size_t i = 0; i < parts_.organs.size(); ++i)
@@ -108,18 +109,19 @@ public:
         Progress progress("frames", frames_);
         for (int frame = first + 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
+            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted();
+            if (sampled || surfaceFrames_.contains(frame) || files_.due(frame))
+                player_.check(); // nothing is written of a state that is wrong
             SEROSA_TRY(picture(frame));
             record_.framesDone = frame;
-            const bool away =
-                (surfaceFrames_.contains(frame) || files_.due(frame)) && !player_.runaway().empty();
-            if (frame % kSampleEvery == 0 || frame == frames_ || away || interrupt.interrupted())
+            if (sampled)
                 sample(frame);
-            if (record_.end == "complete")
-                SEROSA_TRY(writeFiles(frame));
-            if (interrupt.interrupted() && record_.end == "complete" && frame < frames_)
+            SEROSA_TRY(writeFiles(frame));
+            if (interrupt.interrupted() && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
         }
+        noteAlarms();
         return {};
     }
 
@@ -171,15 +173,15 @@ private:
         Stopwatch watch(record_.times.steps);
         player_.advance();
         ToolForce force{frame * frameTime_, {}};
-        for (const auto& organ : parts_.organs) {
-            if (!organ->solver)
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+            if (!parts_.organs[i]->solver)
                 continue;
-            const std::vector<glm::dvec3> impulses = organ->solver->takeToolImpulses();
+            const std::vector<glm::dvec3> impulses = player_.takeToolImpulses(i);
             if (force.forces.empty())
                 force.forces = impulses;
             else
-                for (std::size_t i = 0; i < impulses.size(); ++i)
-                    force.forces[i] += impulses[i];
+                for (std::size_t tool = 0; tool < impulses.size(); ++tool)
+                    force.forces[tool] += impulses[tool];
         }
         for (glm::dvec3& impulse : force.forces)
             impulse /= frameTime_;
@@ -199,13 +201,6 @@ private:
             record.stateHash = now.hash();
             record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
             countCuts(i, now);
-            if (!moved.finite) {
-                record_.end = "not finite";
-                failure_ = "the position of node " + std::to_string(moved.node) + inOrgan(i) +
-                           " is not finite " + shortNumber(time) + " s into the run, or up to " +
-                           std::to_string(kSampleEvery) + " frames before: the pictures show what led to it";
-                continue;
-            }
             sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
             record.largestDisplacement = std::max(record.largestDisplacement, moved.largest);
             if (!organ.solver)
@@ -219,8 +214,6 @@ private:
             sum.energies.elastic += energies.elastic;
             sum.energies.gravitational += energies.gravitational;
         }
-        if (record_.end == "not finite")
-            return;
         record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
         record_.samples.push_back(sum);
     }
@@ -270,9 +263,16 @@ private:
         return render::writePng(image, folder_.file(numbered("frame_%06d.png", frame)));
     }
 
-    /// " of NAME" where there are several organs.
-    std::string inOrgan(std::size_t organ) const {
-        return parts_.organs.size() > 1 ? " of " + parts_.scene.organs[organ].name : "";
+    void noteAlarms() {
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+            record_.organs[i].alarm = player_.alarm(i);
+        if (const std::vector<std::string> lines = player_.alarmLines(); !lines.empty()) {
+            failure_ = "stopped by the watchdog: " + lines.front();
+            if (lines.size() > 1)
+                failure_ += " (and " + std::to_string(lines.size() - 1) + " more: see summary.json)";
+            if (record_.end == "complete")
+                record_.end = "organ stopped";
+        }
     }
 
     std::vector<glm::dvec3> deformedPositions(std::size_t organ) {
@@ -413,6 +413,10 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
                 << " were turned inside out at a time; pictures are not to be trusted there: press less "
                    "deep, or "
                    "take a finer lattice\n";
+    for (std::size_t i = 0; i < record.organs.size(); ++i)
+        if (record.organs[i].alarm)
+            out << "stopped: " << parts.scene.organs[i].name
+                << " at its last good state: " << record.organs[i].alarm->text() << "\n";
     if (record.end == "interrupted")
         out << "interrupted after frame " << record.framesDone << " of " << parts.scene.frames() << "\n";
     out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten << " surfaces, "
@@ -422,7 +426,7 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
         << "summary.json and report.html to " << folder.path().string() << "; largest displacement "
         << shortNumber(1e3 * record.largestDisplacement) << " mm, "
         << shortNumber(summary["timing"]["real_time_factor"].get<double>()) << " x real time\n";
-    if (record.end == "not finite")
+    if (!run.failure().empty())
         return Error{run.failure(), exitCheckFailed};
     return record.end == "interrupted" ? kExitInterrupted : int(exitOk);
 }

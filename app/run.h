@@ -33,7 +33,7 @@ struct RunOptions {
 };
 
 /// Runs and writes into the output folder; says on `out` what it does. SIGINT ends it after the frame in
-/// hand. Returns an exit code: 0, 1 (the state ran away: a node is not finite), 130 (interrupted). Bad input
+/// hand. Returns an exit code: 0, 1 (the watchdog stopped an organ), 130 (interrupted). Bad input
 /// is an Error, and leaves nothing behind.
 Result<int> runScene(const RunOptions& options, std::ostream& out);
 

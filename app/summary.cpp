@@ -130,6 +130,17 @@ Json cutsJson(const OrganRecord& record) {
             {"loose_nodes", record.pieces.loose}};
 }
 
+Json stoppedJson(const sim::Alarm& alarm) {
+    return {{"node", alarm.node},
+            {"position_m", vec(alarm.position)},
+            {"t_s", alarm.time},
+            {"step", alarm.step},
+            {"reason", sim::alarmName(alarm.kind)},
+            {"measured", alarm.measured},
+            {"allowed", alarm.allowed},
+            {"text", alarm.text()}};
+}
+
 /// What a scene of one organ says at the top of the summary, together.
 Json organsJson(const RunRecord& record) {
     Json organs = Json::array();
@@ -142,6 +153,8 @@ Json organsJson(const RunRecord& record) {
         json["binding"] = bindingJson(*organ.binding);
         if (organ.strokes > 0)
             json["cuts"] = cutsJson(organ);
+        if (organ.alarm)
+            json["stopped"] = stoppedJson(*organ.alarm);
         json["largest_displacement_m"] = organ.largestDisplacement;
         json["inverted_cells"] = organ.invertedCells;
         json["state_hash"] = organ.stateHash;
@@ -266,6 +279,8 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
                         {"t_s", record.from->frame / scene.frameRate},
                         {"solver", record.from->solver}};
     json["end"] = record.end;
+    if (single && record.organs.front().alarm)
+        json["stopped"] = stoppedJson(*record.organs.front().alarm);
     json["picture_size"] = {scene.output.width, scene.output.height};
     json["pictures"] = record.picturesWritten;
     json["surfaces"] = record.surfacesWritten;

@@ -217,8 +217,8 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     // Increments lag half a step, so damping lowers the bound: dt^2 omega^2 + 2 dt delta < 4, delta the
     // largest rate of M^-1 C (tau omega_s^2 of the springs' share where tau is one for all). The stiffest
     // modes of both are nearly the same (see above), so the sum of the two largest rates is hardly more than
-    // the largest of the sum.
-    const double damped = step.dampingRate / step.stiffestRate2;
+    // the largest of the sum. Air drag acts on the same lagging increments, equally in every mode.
+    const double damped = (step.dampingRate + tissue.airDrag) / step.stiffestRate2;
     step.bound = std::sqrt(damped * damped + 4 / step.stiffestRate2) - damped;
     step.margin = kMargin;
     const double steps = std::ceil(frameTime / (kMargin * step.bound));

@@ -284,7 +284,7 @@ TEST_F(GlRun, AFullStandardOutputIsNoticed) {
     EXPECT_NE(failed.err.find("standard output"), std::string::npos) << failed.err;
 }
 
-TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
+TEST_F(GlRun, AnOrganThatRunsAwayIsStoppedAndTheRunGoesOn) {
     // Gravity beyond the range of the state's float32: infinite after one step.
     std::string scene = readWhole(folder_.path() / "ball.toml");
     scene.insert(scene.find("[[organ]]"), "gravity = [\"0 m/s2\", \"-1e45 m/s2\", \"0 m/s2\"]\n");
@@ -297,8 +297,16 @@ TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
     EXPECT_NE(result.err.find("node "), std::string::npos) << result.err;
     const nlohmann::json json = summary("away");
     ASSERT_FALSE(json.is_discarded()) << "what led to it is kept";
-    EXPECT_EQ(json["end"], "not finite");
-    EXPECT_EQ(json["frames"], 6) << "found before a surface of it is written";
+    EXPECT_EQ(json["end"], "organ stopped");
+    EXPECT_EQ(json["frames"], 30) << "the others live on";
+    EXPECT_EQ(json["surfaces"], 2) << "of the last good state";
+    EXPECT_EQ(json["stopped"]["reason"], "not finite");
+    EXPECT_TRUE(json["stopped"]["position_m"][1].is_number());
+    EXPECT_EQ(json["largest_displacement_m"], 0);
+    EXPECT_NE(result.out.find("stopped: "), std::string::npos) << result.out;
+    const std::string page = readWhole(folder_.path() / "away" / "report.html");
+    EXPECT_NE(page.find("An organ was stopped"), std::string::npos);
+    EXPECT_NE(page.find("is not finite"), std::string::npos);
 }
 
 // An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.
