@@ -25,8 +25,8 @@ Status StateFiles::write() {
     if (displacementFrames_.contains(frame))
         for (std::size_t i = 0; i < parts_.organs.size(); ++i)
             SEROSA_TRY(writeDisplacement(i));
-    if (!snapshotFrames_.contains(frame))
-        return {};
+    if (!snapshotFrames_.contains(frame) || !player_.alarmLines().empty())
+        return {}; // a stopped organ is not where the others are: nothing could go on from there
     ++snapshots_;
     return sim::writeSnapshot(player_.snapshot(), folder_.file("snapshot_" + sixDigits(frame) + ".serosa"));
 }

@@ -92,8 +92,7 @@ Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int s
                          bool onGpu) {
     SEROSA_ASSIGN(const std::unique_ptr<RandomScenario> scenario,
                   randomScenario(seed, kMostNodes, steps, wildness));
-    const bool simple = sim::supportsTissue("cpu", scenario->setup.tissue).ok();
-    if ((!simple && seed % kOnGpu == 0) != onGpu)
+    if ((seed % kOnGpu == 0) != onGpu)
         return Outcome{};
     sim::SolverSetup setup = scenario->setup;
     if (options.inject.fault == Fault::stiffness) // the step stays that of the tissue as it was
@@ -101,12 +100,10 @@ Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int s
     std::unique_ptr<sim::Solver> solver;
     if (onGpu) {
         SEROSA_ASSIGN(solver, makeSolver("fragment", setup));
-    } else if (simple) {
+    } else {
         sim::CpuOptions one;
         one.threads = 1;
         solver = sim::makeCpuSolver(setup, one);
-    } else {
-        solver = sim::makeReferenceSolver(setup);
     }
     return play(*scenario, *solver, steps);
 }

@@ -77,7 +77,7 @@ std::vector<MaterialShares> materialShares(const Tissue& tissue) {
                 shares.spring[p] += fibres[p] / tissue.shearModulus();
         }
         shares.breaks = breaksOf(material);
-        shares.bend = SRS_SPRING_BEND(material.poisson);
+        shares.bend = std::max(0.0, SRS_SPRING_BEND(material.poisson));
         all.push_back(shares);
     }
     return all;
