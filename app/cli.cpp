@@ -6,6 +6,7 @@
 #include "app/cli_run.h"
 #include "app/commands.h"
 #include "app/doctor.h"
+#include "app/scene_snapshot.h"
 #include "app/verify.h"
 #include "app/version.h"
 #include "models/phantom.h"
@@ -63,14 +64,16 @@ Result<Injection> parseInjection(const std::string& text) {
 }
 
 void addInspect(CLI::App& app, Choice& choice) {
-    CLI::App* command = app.add_subcommand("inspect", "Say what a mesh is and what lattice it would give");
+    CLI::App* command = app.add_subcommand(
+        "inspect", "Say what a mesh is and what lattice it would give, or what a snapshot holds");
     struct Arguments {
         std::string file, lengthUnit, spacing;
         std::size_t nodes = 20000;
         bool repair = false;
     };
     auto given = std::make_shared<Arguments>();
-    command->add_option("file", given->file, "surface: OBJ, PLY, OFF, STL, VTK or TetGen")
+    command
+        ->add_option("file", given->file, "surface: OBJ, PLY, OFF, STL, VTK or TetGen; or a .serosa snapshot")
         ->required()
         ->type_name("FILE");
     command->add_option("--length-unit", given->lengthUnit, "unit of its coordinates: mm, cm, m, um, in")
@@ -86,8 +89,15 @@ void addInspect(CLI::App& app, Choice& choice) {
     addRepairFlag(*command, given->repair);
     command->footer("Example:\n  serosa inspect liver.stl --length-unit mm\n"
                     "Exit codes: 0 usable, 2 unreadable, or no closed solid.");
-    command->callback([given, &choice] {
-        choice.action = [given]() -> Result<int> {
+    command->callback([given, command, &choice] {
+        choice.action = [given, command]() -> Result<int> {
+            if (std::filesystem::path(given->file).extension() == ".serosa") {
+                if (command->count("--length-unit") + command->count("--nodes") +
+                        command->count("--spacing") + command->count("--repair") >
+                    0)
+                    return Error{"inspect takes no other options beside a snapshot: leave them out"};
+                return inspectSnapshot(given->file, std::cout);
+            }
             std::optional<double> spacing;
             if (!given->spacing.empty()) {
                 if (given->lengthUnit.empty())

@@ -16,18 +16,19 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace serosa::app {
 
 namespace {
 
 struct RunArguments {
-    std::string scene, model, lengthUnit, solver = "fragment", gl = "auto", size, mapping, out, spacing,
-                                          layout = "auto";
+    std::string scene, model, lengthUnit, gl = "auto", size, mapping, out, spacing, layout = "auto", from;
+    std::optional<std::string> solver;
     int frames = 0;
     std::string upAxis;
     std::size_t nodes = 0;
-    bool force = false, repair = false;
+    bool force = false, repair = false, anySolver = false;
 };
 
 Result<glm::ivec2> parseSize(const std::string& text) {
@@ -67,7 +68,15 @@ Result<RunOptions> runOptions(const std::string& command, const RunArguments& gi
                       wordIndex("--up-axis", given.upAxis, sim::findSceneKey("organ", "up_axis")->words));
         options.upAxis = sim::UpAxis(axis);
     }
-    SEROSA_ASSIGN(options.solver, chosenSolver(given.solver));
+    options.from = given.from;
+    options.anySolver = given.anySolver;
+    if (given.anySolver && (given.from.empty() || !given.solver))
+        return Error{"--any-solver belongs to --from with --solver: it lets the two name different solvers"};
+    if (given.solver) {
+        SEROSA_ASSIGN(options.solver, chosenSolver(*given.solver));
+    } else if (!given.from.empty()) {
+        options.solver.clear();
+    }
     SEROSA_ASSIGN(options.gl, gpu::parseGlChoice(given.gl));
     SEROSA_ASSIGN(const int layout, wordIndex("--layout", given.layout, {"auto", "grid", "rows"}));
     options.layout = layout == 0 ? -1 : layout == 1 ? SRS_LAYOUT_GRID : SRS_LAYOUT_ROWS;
@@ -237,12 +246,22 @@ void addRun(CLI::App& app, std::function<Result<int>()>& action) {
                      "number of frames, instead of the scene's duration (default model: 120)")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000));
+    command
+        ->add_option("--from", given->from,
+                     "go on from a snapshot that a run of this scene wrote (docs/snapshots.md), with its "
+                     "solver")
+        ->type_name("FILE")
+        ->check(notEmpty);
+    command->add_flag("--any-solver", given->anySolver,
+                      "with --from: go on with --solver, though another made the snapshot; the bytes are not "
+                      "those of a run that never stopped");
     addGlOption(*command, given->gl);
     command->footer(
         "Examples:\n"
         "  serosa run heart.toml\n"
+        "  serosa run heart.toml --from heart-out/snapshot_000060.serosa --out later\n"
         "  serosa run --model liver.stl --length-unit mm --nodes 5000 --frames 60 --out liver\n"
-        "Exit codes: 0 done, 1 the state ran away, 2 bad input, 5 no OpenGL context, 130 interrupted.");
+        "Exit codes: 0 done, 1 an organ was stopped, 2 bad input, 5 no OpenGL context, 130 interrupted.");
     command->callback([given, &action] {
         action = [given]() -> Result<int> {
             SEROSA_ASSIGN(const RunOptions options, runOptions("run", *given));
@@ -280,7 +299,7 @@ void addView(CLI::App& app, std::function<Result<int>()>& action) {
         "Examples:\n"
         "  serosa view heart.toml\n"
         "  serosa view --model liver.stl --length-unit mm --nodes 5000\n"
-        "Exit codes: 0 closed, 1 the state ran away, 2 bad input, 5 no display or no OpenGL, 130 "
+        "Exit codes: 0 closed, 1 an organ was stopped, 2 bad input, 5 no display or no OpenGL, 130 "
         "interrupted.");
     command->callback([given, &action] {
         action = [given]() -> Result<int> {

@@ -77,6 +77,38 @@ double materialArea(const Beam& beam) { // cells: volume over length, of the fil
     return volume / beam.length;
 }
 
+/// Tractions on the piece's true faces, spread over the nodes of the cells that they meet. `traction(axis,
+/// side)` is local, in k/h, on the face across `axis` at its low (-1) or high (1) end.
+template <class Traction>
+void loadFaces(const Beam& piece, LatticeProblem& problem, Traction traction) {
+    const glm::dvec3 half = 0.5 * glm::dvec3(piece.thickness, piece.thickness, piece.length);
+    const int samples = 8; // along each unit of length
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+            const int nu = int(2 * half[u]) * samples, nv = int(2 * half[v]) * samples;
+            const glm::dvec3 force = traction(axis, side) / double(samples * samples);
+            for (int i = 0; i < nu * nv; ++i) {
+                glm::dvec3 p;
+                p[axis] = side * half[axis] * (1 - 1e-9);
+                p[u] = half[u] * ((i % nu + 0.5) / nu * 2 - 1);
+                p[v] = half[v] * ((i / nu + 0.5) / nv * 2 - 1);
+                const glm::dvec3 q =
+                    piece.middle + piece.turn * p + glm::dvec3(piece.lattice.centre); // grid coordinates
+                const glm::ivec3 cell(glm::floor(q));
+                const glm::dvec3 t = q - glm::dvec3(cell);
+                for (int c = 0; c < 8; ++c) {
+                    const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
+                    double weight = 1;
+                    for (int a = 0; a < 3; ++a)
+                        weight *= corner[a] ? t[a] : 1 - t[a];
+                    if (const std::int64_t node = piece.lattice.nodeAt(cell + corner); node >= 0)
+                        problem.push(std::size_t(node), weight * (piece.turn * force));
+                }
+            }
+        }
+}
+
 } // namespace
 
 glm::dmat3 randomRotation(std::uint32_t seed) {
@@ -146,33 +178,11 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
     const double bulk = tissue.bulkShare(), pressure = 1e-3; // k/h
     const double modulus = 1 + bulk + 2.0 / 3;               // lambda + 2/3 mu
     LatticeProblem problem(piece.lattice);
-    const glm::dvec3 half = 0.5 * glm::dvec3(piece.thickness, piece.thickness, piece.length);
-    const int samples = 8; // along each unit of length
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-            const int nu = int(2 * half[u]) * samples, nv = int(2 * half[v]) * samples;
-            for (int i = 0; i < nu * nv; ++i) {
-                glm::dvec3 p;
-                p[axis] = side * half[axis] * (1 - 1e-9);
-                p[u] = half[u] * ((i % nu + 0.5) / nu * 2 - 1);
-                p[v] = half[v] * ((i / nu + 0.5) / nv * 2 - 1);
-                glm::dvec3 inward(0);
-                inward[axis] = -side * pressure / (samples * samples);
-                const glm::dvec3 q =
-                    piece.middle + piece.turn * p + glm::dvec3(piece.lattice.centre); // grid coordinates
-                const glm::ivec3 cell(glm::floor(q));
-                const glm::dvec3 t = q - glm::dvec3(cell);
-                for (int c = 0; c < 8; ++c) {
-                    const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-                    double weight = 1;
-                    for (int a = 0; a < 3; ++a)
-                        weight *= corner[a] ? t[a] : 1 - t[a];
-                    if (const std::int64_t node = piece.lattice.nodeAt(cell + corner); node >= 0)
-                        problem.push(std::size_t(node), weight * (piece.turn * inward));
-                }
-            }
-        }
+    loadFaces(piece, problem, [&](int axis, double side) {
+        glm::dvec3 inward(0);
+        inward[axis] = -side * pressure;
+        return inward;
+    });
     const Vector pressed = problem.solve(bulk);
     // Of all the material: a rough surface layer, half of so small a piece, shares the load unevenly.
     double change = 0, volume = 0;
@@ -186,6 +196,18 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
     }
     change /= volume;
     return -pressure / change / modulus;
+}
+
+double shearShare(const Beam& beam, const sim::Tissue& tissue) {
+    const double stress = 1e-3; // k/h; mu is 1
+    LatticeProblem problem(beam.lattice);
+    loadFaces(beam, problem, [&](int axis, double side) {
+        return axis == 0   ? glm::dvec3(0, side * stress, 0)
+               : axis == 1 ? glm::dvec3(side * stress, 0, 0)
+                           : glm::dvec3(0);
+    });
+    const Vector sheared = problem.solve(tissue.bulkShare());
+    return stress / (fit(beam, sheared, beam.turn[0])[2] + fit(beam, sheared, beam.turn[1])[1]);
 }
 
 double cantileverSagShare(const Beam& beam, const sim::Tissue& tissue) {

@@ -35,6 +35,10 @@ BeamMeasures measureBeam(const Beam& beam, const sim::Tissue& tissue = {}, bool 
 /// change over the middle third.
 double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue);
 
+/// Shear modulus over the tissue's mu = E / (2 (1 + nu)): equal shear tractions on the four long faces, which
+/// shear the section evenly; the angle is taken over the middle third.
+double shearShare(const Beam& beam, const sim::Tissue& tissue);
+
 /// Sag of the free end of a cantilever under its weight along the lateral axis y, over q L^4 / (8 E I) +
 /// q L^2 / (2 kappa G A), kappa = 10 (1 + nu) / (12 + 11 nu) (Cowper 1966). The clamped section may not move
 /// along the axis; it carries the weight evenly.

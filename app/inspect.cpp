@@ -8,7 +8,12 @@
 #include "sim/mesh_repair.h"
 #include "sim/mesh_writer.h"
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <ostream>
+#include <utility>
+#include <vector>
 
 namespace serosa::app {
 
@@ -53,6 +58,26 @@ void printReport(const sim::MeshReport& report, const std::string& unit, std::os
     count("unused vertices     ", report.unusedVertices);
 }
 
+/// What a painted region of a scene could go by: the most frequent colours of the vertices.
+void printColours(const sim::TriangleMesh& mesh, std::ostream& out) {
+    constexpr std::size_t kShown = 4;
+    if (mesh.colours.empty())
+        return;
+    std::map<std::array<int, 3>, std::size_t> counts;
+    for (const glm::u8vec3& colour : mesh.colours)
+        ++counts[{colour.x, colour.y, colour.z}];
+    std::vector<std::pair<std::array<int, 3>, std::size_t>> sorted(counts.begin(), counts.end());
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    out << "vertex colours      " << grouped(sorted.size()) << ": ";
+    for (std::size_t i = 0; i < std::min(kShown, sorted.size()); ++i) {
+        const auto& [colour, count] = sorted[i];
+        out << (i > 0 ? ", [" : "[") << colour[0] << ", " << colour[1] << ", " << colour[2] << "] ("
+            << grouped(count) << ")";
+    }
+    out << (sorted.size() > kShown ? ", ..." : "") << "\n";
+}
+
 /// A file to write: not a folder, and not there already.
 Status checkTarget(const std::filesystem::path& file, const std::string& example, bool force) {
     std::error_code code;
@@ -79,6 +104,7 @@ Result<int> inspectModel(const std::filesystem::path& file, bool repair, const s
         printRepair(mended.report, out);
     }
     printReport(sim::inspectMesh(mesh, true), lengthUnit.empty() ? "file units" : lengthUnit, out);
+    printColours(mesh, out);
     out << std::flush;
     if (const Status solid = sim::checkClosedSolid(mesh, file.string()); !solid.ok())
         return sim::withRepairHint(solid.error(), mesh);

@@ -2,11 +2,11 @@
 
 #include "app/organ_setup.h"
 
+#include "sim/assign_materials.h"
 #include "sim/mesh_check.h"
 #include "sim/mesh_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -14,7 +14,7 @@ namespace serosa::app {
 
 namespace {
 
-constexpr double kMostStepsAFrame = 1e5;
+constexpr int kMostStepsAFrame = 100000;
 
 /// "scene.toml:12: " or "".
 std::string scenePosition(const std::filesystem::path& scene, int line) {
@@ -60,7 +60,7 @@ Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem:
 Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice& lattice,
                                      const sim::TriangleMesh& metres, const std::filesystem::path& scene) {
     std::vector<bool> fixed(lattice.nodeCount(), false);
-    for (const sim::FixedRegion& region : organ.fixed) {
+    for (const sim::Region& region : organ.fixed) {
         std::size_t held = 0;
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
             if (region.contains(lattice.toWorld(lattice.restPosition(node)))) {
@@ -92,22 +92,20 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
     Result<sim::Lattice> lattice = sim::buildLattice(metres, request);
     if (!lattice.ok())
         return Error{scenePosition(scene, organ.modelLine) + lattice.error().message};
+    SEROSA_TRY(sim::assignMaterials(*lattice, metres, organ.regions,
+                                    [&scene](int line) { return scenePosition(scene, line); }));
     return lattice;
 }
 
 Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
                                   const std::filesystem::path& scene) {
-    // 1/s2, the least that they can be: of the springs, and with the volumetric term
-    const double perShare = organ.tissue.stiffnessOverMass(lattice.spacing), springs2 = 12 * perShare,
-                 rate2 = springs2 + 4 * organ.tissue.bulkShare() * perShare;
-    // Damping c = dampingTime k along springs bounds the step by about 2 / (dampingTime springs2), too.
-    const double steps = frameTime * std::max(std::sqrt(rate2), organ.tissue.dampingTime * springs2) / 2;
-    if (!(steps <= kMostStepsAFrame))
+    const sim::StableStep step = sim::stableStep(lattice, organ.tissue, frameTime);
+    if (step.stepsPerFrame > kMostStepsAFrame)
         return Error{scenePosition(scene, organ.modelLine) +
                      "the tissue is so stiff or damped on so fine a lattice that a frame would take " +
-                     shortNumber(steps) +
-                     " steps or more (at most 100,000): lower young or damping_time, or raise spacing"};
-    return sim::stableStep(lattice, organ.tissue, frameTime);
+                     shortNumber(frameTime / (step.margin * step.bound)) +
+                     " steps (at most 100,000): lower young or damping_time, or raise spacing"};
+    return step;
 }
 
 void printRepair(const sim::RepairReport& repair, std::ostream& out) {

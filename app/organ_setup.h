@@ -40,7 +40,8 @@ Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem:
 Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice& lattice,
                                      const sim::TriangleMesh& metres, const std::filesystem::path& scene);
 
-/// The lattice of an organ, by nodes or spacing. Errors name the line of the organ's model in `scene`.
+/// The lattice of an organ, by nodes or spacing, with the material of each cell. Errors name the line of the
+/// organ's model or of a region in `scene`.
 Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres,
                                   const std::filesystem::path& scene);
 

@@ -14,8 +14,10 @@ bool isResult(const std::string& name) {
     const auto framed = [&name](const char* prefix, const char* suffix) {
         return name.starts_with(prefix) && name.ends_with(suffix);
     };
-    return framed("frame_", ".png") || framed("surface_", ".ply") || name == "contact_sheet.png" ||
-           name == "summary.json" || name == "report.html";
+    return framed("frame_", ".png") || framed("surface_", ".ply") || framed("snapshot_", ".serosa") ||
+           framed("displacement_", ".ply") || framed("displacement_", ".nrrd") ||
+           framed("displacement_", ".mha") || name == "contact_sheet.png" || name == "summary.json" ||
+           name == "report.html";
 }
 
 fs::path parentOf(const fs::path& path) {

@@ -21,7 +21,7 @@ public:
     ~OutputFolder();
 
     /// Makes the folder; with force, removes results of an earlier run from it (frame_*.png, surface_*.ply,
-    /// contact_sheet.png, summary.json, report.html) and leaves all else.
+    /// snapshot_*.serosa, displacement_*, contact_sheet.png, summary.json, report.html) and leaves all else.
     Status create();
     /// Path of a file that is about to be written.
     std::filesystem::path file(const std::string& name);

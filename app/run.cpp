@@ -3,11 +3,14 @@
 
 #include "app/run.h"
 
+#include "app/material_lines.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
 #include "app/run_report.h"
 #include "app/run_setup.h"
 #include "app/scene_player.h"
+#include "app/scene_snapshot.h"
+#include "app/state_files.h"
 #include "app/summary.h"
 #include "base/atomic_file.h"
 #include "gpu/gl.h"
@@ -63,9 +66,10 @@ Result<std::string> bytesOf(const std::filesystem::path& file) {
 
 class Run {
 public:
-    Run(RunParts& parts, OutputFolder& folder, const std::string& solver)
-        : parts_(parts), player_(parts), folder_(folder), frames_(parts.scene.frames()),
-          frameTime_(1 / parts.scene.frameRate) {
+    /// \param start a snapshot that belongs to the scene; null: from rest
+    Run(RunParts& parts, OutputFolder& folder, const std::string& solver, const sim::Snapshot* start)
+        : parts_(parts), player_(parts), folder_(folder), start_(start), files_(parts, player_, folder),
+          frames_(parts.scene.frames()), frameTime_(1 / parts.scene.frameRate) {
         record_.scene = parts.scene;
         record_.gl = parts.context->info();
         record_.solver = "pose";
@@ -77,6 +81,10 @@ public:
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
+        for (const double time : output.snapshotsAt)
+            files_.snapshotAt(frameAt(time));
+        for (const double time : output.displacementsAt)
+            files_.displacementAt(frameAt(time));
         for (const double time : output.sheetAt)
             sheetFrames_.insert(std::max(1, frameAt(time)));
         if (output.sheetAt.empty())
@@ -86,27 +94,34 @@ public:
                                      double(output.width) / output.height);
     }
 
-    /// All frames, until the end, an interruption or a state that is not finite (`record().end` says which).
+    /// All frames, until the end or an interruption (`record().end` says which). An organ that the watchdog
+    /// stops stays as it was last good.
     Status frames(const InterruptGuard& interrupt) {
         if (!surfaceFrames_.empty())
             for (std::size_t i = 0; i < parts_.organs.size(); ++i)
                 restSurfaces_.push_back(deformedPositions(i));
-        SEROSA_TRY(writeSurfaces(0));
-        sample(0);
+        if (start_)
+            player_.restore(*start_);
+        const int first = player_.frame();
+        record_.framesDone = first;
+        SEROSA_TRY(writeFiles(first));
+        sample(first);
         Progress progress("frames", frames_);
-        for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
+        for (int frame = first + 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
+            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted();
+            if (sampled || surfaceFrames_.contains(frame) || files_.due(frame))
+                player_.check(); // nothing is written of a state that is wrong
             SEROSA_TRY(picture(frame));
             record_.framesDone = frame;
-            const bool away = surfaceFrames_.contains(frame) && !player_.runaway().empty();
-            if (frame % kSampleEvery == 0 || frame == frames_ || away || interrupt.interrupted())
+            if (sampled)
                 sample(frame);
-            if (record_.end == "complete")
-                SEROSA_TRY(writeSurfaces(frame));
-            if (interrupt.interrupted() && record_.end == "complete" && frame < frames_)
+            SEROSA_TRY(writeFiles(frame));
+            if (interrupt.interrupted() && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
         }
+        noteAlarms();
         return {};
     }
 
@@ -158,15 +173,15 @@ private:
         Stopwatch watch(record_.times.steps);
         player_.advance();
         ToolForce force{frame * frameTime_, {}};
-        for (const auto& organ : parts_.organs) {
-            if (!organ->solver)
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+            if (!parts_.organs[i]->solver)
                 continue;
-            const std::vector<glm::dvec3> impulses = organ->solver->takeToolImpulses();
+            const std::vector<glm::dvec3> impulses = player_.takeToolImpulses(i);
             if (force.forces.empty())
                 force.forces = impulses;
             else
-                for (std::size_t i = 0; i < impulses.size(); ++i)
-                    force.forces[i] += impulses[i];
+                for (std::size_t tool = 0; tool < impulses.size(); ++tool)
+                    force.forces[tool] += impulses[tool];
         }
         for (glm::dvec3& impulse : force.forces)
             impulse /= frameTime_;
@@ -186,13 +201,6 @@ private:
             record.stateHash = now.hash();
             record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
             countCuts(i, now);
-            if (!moved.finite) {
-                record_.end = "not finite";
-                failure_ = "the position of node " + std::to_string(moved.node) + inOrgan(i) +
-                           " is not finite " + shortNumber(time) + " s into the run, or up to " +
-                           std::to_string(kSampleEvery) + " frames before: the pictures show what led to it";
-                continue;
-            }
             sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
             record.largestDisplacement = std::max(record.largestDisplacement, moved.largest);
             if (!organ.solver)
@@ -206,8 +214,6 @@ private:
             sum.energies.elastic += energies.elastic;
             sum.energies.gravitational += energies.gravitational;
         }
-        if (record_.end == "not finite")
-            return;
         record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
         record_.samples.push_back(sum);
     }
@@ -257,9 +263,16 @@ private:
         return render::writePng(image, folder_.file(numbered("frame_%06d.png", frame)));
     }
 
-    /// " of NAME" where there are several organs.
-    std::string inOrgan(std::size_t organ) const {
-        return parts_.organs.size() > 1 ? " of " + parts_.scene.organs[organ].name : "";
+    void noteAlarms() {
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+            record_.organs[i].alarm = player_.alarm(i);
+        if (const std::vector<std::string> lines = player_.alarmLines(); !lines.empty()) {
+            failure_ = "stopped by the watchdog: " + lines.front();
+            if (lines.size() > 1)
+                failure_ += " (and " + std::to_string(lines.size() - 1) + " more: see summary.json)";
+            if (record_.end == "complete")
+                record_.end = "organ stopped";
+        }
     }
 
     std::vector<glm::dvec3> deformedPositions(std::size_t organ) {
@@ -267,12 +280,21 @@ private:
                                                       parts_.surfaceMapping(), organ);
     }
 
+    /// All that is written of the state but pictures.
+    Status writeFiles(int frame) {
+        Stopwatch watch(record_.times.files);
+        SEROSA_TRY(writeSurfaces(frame));
+        SEROSA_TRY(files_.write());
+        record_.snapshotsWritten = files_.snapshots();
+        record_.displacementsWritten = files_.displacements();
+        return {};
+    }
+
     /// The surfaces in their files' unit, axes and vertex order: the file's own positions plus the
     /// displacement, so that rest comes out as it went in.
     Status writeSurfaces(int frame) {
         if (!surfaceFrames_.contains(frame))
             return {};
-        Stopwatch watch(record_.times.files);
         for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
             const sim::Organ& organ = parts_.scene.organs[i];
             const std::string name =
@@ -288,6 +310,8 @@ private:
     RunParts& parts_;
     ScenePlayer player_;
     OutputFolder& folder_;
+    const sim::Snapshot* start_;
+    StateFiles files_;
     int frames_;
     double frameTime_; // s
     render::CameraView camera_;
@@ -308,6 +332,11 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
     out << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
         << grouped(parts.lattice.cells.size()) << " cells, spacing "
         << shortNumber(1e3 * parts.lattice.spacing) << " mm\n";
+    if (!plainTissue(organ))
+        for (const MaterialLine& line : materialLines(organ, parts.lattice))
+            out << "material " << line.name << ": " << line.text << "\n";
+    for (const std::string& note : materialNotes(organ, parts.lattice))
+        out << "note: " << note << "\n";
     if (parts.solver)
         out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
@@ -331,7 +360,7 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
         describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
     if (parts.timesLeftOut > 0)
         out << "note: " << parts.timesLeftOut
-            << " of the times in surfaces_at and sheet_at lie after the frames asked for and are left out\n";
+            << " of the times in [output] lie after the frames asked for and are left out\n";
     out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
         << parts.context->info().renderer << "\n"
         << std::flush;
@@ -339,18 +368,27 @@ void describeSetup(const RunParts& parts, std::ostream& out) {
 
 } // namespace
 
-Result<int> runScene(const RunOptions& options, std::ostream& out) {
+Result<int> runScene(const RunOptions& given, std::ostream& out) {
+    RunOptions options = given;
     RunTimes times;
     std::optional<Stopwatch> setupWatch(times.setup), totalWatch(times.total);
     SEROSA_ASSIGN(
         OutputFolder folder,
         OutputFolder::check(options.out.empty() ? defaultOutputFolder(options) : options.out, options.force));
+    SEROSA_ASSIGN(const std::optional<sim::Snapshot> start, readStart(options, folder.path()));
     RunParts parts;
     SEROSA_TRY(prepareRun(options, parts));
+    if (start)
+        SEROSA_TRY(checkStart(*start, options, parts));
     describeSetup(parts, out);
+    if (start)
+        describeStart(*start, options, parts, out);
     SEROSA_TRY(folder.create());
 
-    Run run(parts, folder, options.solver);
+    Run run(parts, folder, options.solver, start ? &*start : nullptr);
+    if (start)
+        run.record().from = {options.from.filename().string(), int(start->frame),
+                             start->organs.front().solver};
     run.warmUp();
     setupWatch.reset();
     const InterruptGuard interrupt;
@@ -375,13 +413,20 @@ Result<int> runScene(const RunOptions& options, std::ostream& out) {
                 << " were turned inside out at a time; pictures are not to be trusted there: press less "
                    "deep, or "
                    "take a finer lattice\n";
+    for (std::size_t i = 0; i < record.organs.size(); ++i)
+        if (record.organs[i].alarm)
+            out << "stopped: " << parts.scene.organs[i].name
+                << " at its last good state: " << record.organs[i].alarm->text() << "\n";
     if (record.end == "interrupted")
         out << "interrupted after frame " << record.framesDone << " of " << parts.scene.frames() << "\n";
-    out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten
-        << " surfaces, summary.json and report.html to " << folder.path().string()
-        << "; largest displacement " << shortNumber(1e3 * record.largestDisplacement) << " mm, "
+    out << "wrote " << record.picturesWritten << " pictures, " << record.surfacesWritten << " surfaces, "
+        << (record.snapshotsWritten > 0 ? std::to_string(record.snapshotsWritten) + " snapshots, " : "")
+        << (record.displacementsWritten > 0 ? std::to_string(record.displacementsWritten) + " displacements, "
+                                            : "")
+        << "summary.json and report.html to " << folder.path().string() << "; largest displacement "
+        << shortNumber(1e3 * record.largestDisplacement) << " mm, "
         << shortNumber(summary["timing"]["real_time_factor"].get<double>()) << " x real time\n";
-    if (record.end == "not finite")
+    if (!run.failure().empty())
         return Error{run.failure(), exitCheckFailed};
     return record.end == "interrupted" ? kExitInterrupted : int(exitOk);
 }

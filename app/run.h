@@ -18,7 +18,7 @@ struct RunOptions {
     std::string lengthUnit;      // and its unit: "mm",
     sim::UpAxis upAxis = sim::UpAxis::y;
     bool repair = false;             // and whether to mend it
-    std::string solver = "fragment"; // of solverNames() (app/solver_choice.h)
+    std::string solver = "fragment"; // of solverNames() (app/solver_choice.h); empty: of `from`
     gpu::GlChoice gl = gpu::GlChoice::automatic;
     int layout = -1;                  // SRS_LAYOUT_..., -1: by how full the grid is
     std::optional<int> frames;        // each of these replaces what the scene says
@@ -28,10 +28,12 @@ struct RunOptions {
     std::optional<double> spacing;    // m
     std::filesystem::path out;        // empty: the scene's or model's name with "-out", in the current folder
     bool force = false;               // write into a folder that holds something
+    std::filesystem::path from;       // a snapshot to go on from; empty: from rest
+    bool anySolver = false;           // let `solver` be another than that of the snapshot
 };
 
 /// Runs and writes into the output folder; says on `out` what it does. SIGINT ends it after the frame in
-/// hand. Returns an exit code: 0, 1 (the state ran away: a node is not finite), 130 (interrupted). Bad input
+/// hand. Returns an exit code: 0, 1 (the watchdog stopped an organ), 130 (interrupted). Bad input
 /// is an Error, and leaves nothing behind.
 Result<int> runScene(const RunOptions& options, std::ostream& out);
 

@@ -42,15 +42,16 @@ PageHead headOf(const Json& summary, const std::string& failure) {
     if (end == "complete") {
         head.summary = "Complete:";
         head.detail = frames + ", " + siText(done / rate, "s") + " simulated.";
-    } else if (end == "interrupted") {
+    } else if (end == "interrupted" && failure.empty()) {
         head.verdict = Verdict::warning;
         head.summary = "Interrupted:";
         head.detail = frames + ", " + siText(done / rate, "s") + " of " + siText(asked / rate, "s") +
                       " simulated. What stands here is what was done until then.";
     } else {
         head.verdict = Verdict::bad;
-        head.summary = "The state ran away:";
-        head.detail = (failure.empty() ? "a position is not finite" : failure) + ". " + frames + " done.";
+        head.summary = "An organ was stopped:";
+        head.detail = (failure.empty() ? "its state was wrong" : failure) + ". " + frames +
+                      " done; the organ stayed as it was last good.";
     }
     return head;
 }
@@ -226,6 +227,12 @@ std::string runReport(const Json& summary, const RunPictures& pictures, const st
     beginSection(page, "setup", "What was simulated");
     writeOrganTables(page, summary);
     page.close();
+    if (std::ranges::any_of(organsOf(summary),
+                            [](const Json& organ) { return organ.contains("materials"); })) {
+        beginSection(page, "materials", "Materials");
+        writeMaterialTable(page, summary);
+        page.close();
+    }
     beginSection(page, "program", "Scene, program and machine");
     writeProgramTable(page, summary);
     page.close();

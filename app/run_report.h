@@ -16,8 +16,8 @@ struct RunPictures {                                 // bytes of PNG files
     std::vector<std::pair<int, std::string>> frames; // number and file, ascending
 };
 
-/// `failure` is the error of a run whose end is "not finite", empty otherwise. The figures of `summary` may
-/// be null or not finite: plots have a gap there, tables say so.
+/// `failure` is the error of a run with an organ that was stopped, empty otherwise. The figures of `summary`
+/// may be null or not finite: plots have a gap there, tables say so.
 std::string runReport(const nlohmann::ordered_json& summary, const RunPictures& pictures,
                       const std::string& failure);
 

@@ -2,6 +2,7 @@
 
 #include "app/run_setup.h"
 
+#include "app/material_lines.h"
 #include "app/pose.h"
 #include "app/solver_choice.h"
 
@@ -16,7 +17,9 @@ Status applyOverrides(const RunOptions& options, sim::Scene& scene, std::size_t&
     if (options.frames) {
         scene.duration = *options.frames / scene.frameRate;
         const double end = (*options.frames + 0.5) / scene.frameRate;
-        for (std::vector<double>* times : {&scene.output.surfacesAt, &scene.output.sheetAt})
+        sim::Output& output = scene.output;
+        for (std::vector<double>* times :
+             {&output.surfacesAt, &output.snapshotsAt, &output.displacementsAt, &output.sheetAt})
             timesLeftOut += std::erase_if(*times, [end](double time) { return time > end; });
     }
     if (options.width)
@@ -68,6 +71,8 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
 /// Lattice, fixed nodes and time step: all that needs no context.
 Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
     SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres, scene.file));
+    if (scene.look.colour == sim::SurfaceColour::material)
+        parts.surface.metres.colours = materialColours(parts.lattice, parts.surface.metres);
     parts.setup.lattice = &parts.lattice;
     parts.setup.tissue = organ.tissue;
     parts.setup.gravity = scene.gravity;

@@ -38,7 +38,7 @@ struct RunParts {
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
     std::size_t timesLeftOut =
-        0; // of surfaces_at and sheet_at: after the last of the frames that were asked for
+        0; // of surfaces_at, sheet_at and the like: after the last of the frames that were asked for
 
     RunParts() = default;
     RunParts(const RunParts&) = delete;

@@ -162,6 +162,25 @@ std::string vector3(const Json& value, const std::string& unit) {
     return "(" + text + ")\u00A0" + unit;
 }
 
+/// How a material departs from a linear, isotropic one.
+std::string lawText(const Json& material) {
+    std::string text;
+    const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+    if (material.contains("curve")) {
+        std::string points;
+        for (const Json& point : material.at("curve"))
+            points += (points.empty() ? "" : ", ") + siText(figureOf(point, "stress_Pa"), "Pa") + " at " +
+                      numberText(100 * figureOf(point, "strain")) + "\u00A0%";
+        add("tension " + points);
+    }
+    if (material.contains("strain_limit"))
+        add("limit at " + numberText(100 * figureOf(material, "strain_limit")) + "\u00A0%");
+    if (material.contains("fibre_young_Pa"))
+        add(siText(figureOf(material, "fibre_young_Pa"), "Pa") + " along " +
+            vector3(material.at("fibre"), ""));
+    return text.empty() ? "linear" : text;
+}
+
 } // namespace
 
 std::vector<Json> organsOf(const Json& summary) {
@@ -210,6 +229,32 @@ void writeOrganTables(Markup& page, const Json& summary) {
         "The step is computed: " + organs.front().at("step").at("how").get<std::string>() +
             ". A torn edge has ends that bind to lattice triangles without a common node; a constant "
             "basis stands where node normals are not well defined.");
+}
+
+void writeMaterialTable(Markup& page, const Json& summary) {
+    const std::vector<Json> organs = organsOf(summary);
+    page.open("div", {{"class", "scroll"}}).open("table", {{"class", "tools"}}).open("thead").open("tr");
+    page.element("th", {{"scope", "col"}}, "Material");
+    for (const char* heading :
+         {"Young\u2019s modulus", "Poisson\u2019s ratio", "Density", "Cells", "Volume", "Mass"})
+        page.element("th", {{"scope", "col"}, {"class", "number"}}, heading);
+    page.element("th", {{"scope", "col"}}, "Law").close().close().open("tbody");
+    for (const Json& organ : organs)
+        for (const Json& material : organ.value("materials", Json::array())) {
+            const std::string name = material.at("name").get<std::string>();
+            page.open("tr").element("th", {{"scope", "row"}},
+                                    organs.size() == 1 ? name
+                                                       : organ.at("name").get<std::string>() + ", " + name);
+            for (const std::string& value :
+                 {siText(figureOf(material, "young_Pa"), "Pa"), numberText(figureOf(material, "poisson")),
+                  numberText(figureOf(material, "density_kg_m3")) + "\u00A0kg/m\u00B3",
+                  grouped(material.at("cells").get<std::size_t>()),
+                  numberText(kCubicCentimetre * figureOf(material, "volume_m3")) + "\u00A0cm\u00B3",
+                  siText(1e3 * figureOf(material, "mass_kg"), "g")})
+                page.element("td", {{"class", "number"}}, value);
+            page.element("td", {}, lawText(material)).close();
+        }
+    page.close().close().close();
 }
 
 void writeToolTable(Markup& page, const Json& summary) {

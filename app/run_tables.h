@@ -1,5 +1,6 @@
 #pragma once
-// The tables of a run's report: organ, lattice, step, binding, tools, program and timing, from summary.json.
+// The tables of a run's report: organ, lattice, step, binding, materials, tools, program and timing, from
+// summary.json.
 
 #include "app/markup.h"
 
@@ -28,6 +29,8 @@ double forceSize(const nlohmann::ordered_json& sample);
 double timeOfLargestForce(const nlohmann::ordered_json& tool);
 
 void writeOrganTables(Markup& page, const nlohmann::ordered_json& summary);
+/// A row for each material of each organ.
+void writeMaterialTable(Markup& page, const nlohmann::ordered_json& summary);
 void writeToolTable(Markup& page, const nlohmann::ordered_json& summary);
 void writeProgramTable(Markup& page, const nlohmann::ordered_json& summary);
 void writeTimingTable(Markup& page, const nlohmann::ordered_json& summary);

@@ -1,6 +1,7 @@
 // `serosa scene check|explain|keys`.
 
 #include "app/commands.h"
+#include "app/material_lines.h"
 #include "app/organ_setup.h"
 #include "app/pose.h"
 #include "sim/quantity.h"
@@ -64,6 +65,10 @@ void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream&
     line("lattice nodes", grouped(lattice.nodeCount()) + ", " + grouped(derived.fixed) + " of them fixed");
     line("lattice cells", grouped(lattice.cells.size()));
     line("lattice spacing", shortNumber(lattice.spacing) + " m");
+    for (const MaterialLine& material : materialLines(organ, lattice))
+        line(("material " + material.name).c_str(), material.text);
+    for (const std::string& note : materialNotes(organ, lattice))
+        line("note", note);
     if (organ.pose)
         return;
     line("spring constant k = 0.4 E h", shortNumber(organ.tissue.springConstant(lattice.spacing)) + " N/m");
@@ -93,8 +98,14 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     if (steps > 0)
         out << ", " << steps << " steps a frame";
     out << "\n";
-    for (const Derived& organ : organs)
-        printRepair(organ.surface, out);
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        printRepair(organs[i].surface, out);
+        if (!plainTissue(scene.organs[i]))
+            for (const MaterialLine& line : materialLines(scene.organs[i], organs[i].lattice))
+                out << "material " << line.name << ": " << line.text << "\n";
+        for (const std::string& note : materialNotes(scene.organs[i], organs[i].lattice))
+            out << "note: " << note << "\n";
+    }
     return int(exitOk);
 }
 
@@ -103,7 +114,9 @@ Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& ou
     SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file, &values));
     SEROSA_ASSIGN(const std::vector<Derived> organs, deriveAll(scene));
     for (const sim::SceneValue& value : values) {
-        const std::string source = value.line > 0 ? "line " + std::to_string(value.line) : "default";
+        const std::string source = value.line > 0    ? "line " + std::to_string(value.line)
+                                   : value.inherited ? "inherited"
+                                                     : "default";
         const bool sameText = value.written == value.value;
         out << std::left << std::setw(34) << value.path << " " << std::setw(9) << source << " " << value.value
             << (value.line > 0 && !sameText ? "  (" + value.written + ")" : "") << "\n";

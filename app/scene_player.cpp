@@ -3,7 +3,6 @@
 #include "app/scene_player.h"
 
 #include "app/pose.h"
-#include "app/summary.h"
 #include "base/check.h"
 
 #include <algorithm>
@@ -12,7 +11,10 @@ namespace serosa::app {
 
 ScenePlayer::ScenePlayer(RunParts& parts)
     : parts_(parts), cuts_(parts.organs.size()), lastCut_(parts.organs.size()),
-      shownConnections_(parts.organs.size()), posed_(parts.organs.size()) {
+      shownConnections_(parts.organs.size()), posed_(parts.organs.size()), guards_(parts.organs.size()) {
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        if (parts.organs[i]->solver)
+            guards_[i].emplace(*parts.organs[i], cuts_[i], 1 / parts.scene.frameRate);
     reset();
 }
 
@@ -67,8 +69,11 @@ void ScenePlayer::advance() {
     ++frame_;
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
         OrganParts& organ = *parts_.organs[i];
-        if (organ.solver) {
+        if (guards_[i]) {
+            if (guards_[i]->frozen())
+                continue;
             organ.solver->advance(organ.step.stepsPerFrame);
+            guards_[i]->stepped(frame_);
             cut(i);
             if (organ.uploaded)
                 organ.uploaded->upload(organ.solver->state());
@@ -78,6 +83,19 @@ void ScenePlayer::advance() {
         posed_[i] = bentState(organ.lattice, share / parts_.scene.organs[i].pose->bendRadius);
         posed_[i]->step = frame_;
         organ.uploaded->upload(*posed_[i]);
+    }
+    if (frame_ % kFramesBetweenChecks == 0)
+        check();
+}
+
+void ScenePlayer::check() {
+    for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+        if (!guards_[i] || !guards_[i]->check(frame_))
+            continue;
+        OrganParts& organ = *parts_.organs[i];
+        showCuts(i);
+        if (organ.uploaded)
+            organ.uploaded->upload(organ.solver->state());
     }
 }
 
@@ -91,7 +109,7 @@ void ScenePlayer::reset() {
             organ.solver->forgetCuts();
             cuts_[i].clear();
             showCuts(i);
-            organ.solver->takeToolImpulses();
+            guards_[i]->restart(0);
         }
         if (organ.uploaded)
             organ.uploaded->upload(sim::restState(organ.lattice));
@@ -119,14 +137,20 @@ std::string ScenePlayer::stateHash() const {
     return joined;
 }
 
-std::string ScenePlayer::runaway() const {
-    for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-        const Displacement moved = largestDisplacement(parts_.organs[i]->lattice, state(i));
-        if (!moved.finite)
-            return parts_.scene.organs[i].name + ": the position of node " + std::to_string(moved.node) +
-                   " is not finite";
-    }
-    return "";
+std::optional<sim::Alarm> ScenePlayer::alarm(std::size_t organ) const {
+    return guards_[organ] ? guards_[organ]->alarm() : std::nullopt;
+}
+
+std::vector<std::string> ScenePlayer::alarmLines() const {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < guards_.size(); ++i)
+        if (const std::optional<sim::Alarm> found = alarm(i))
+            lines.push_back(parts_.scene.organs[i].name + ": " + found->text());
+    return lines;
+}
+
+std::vector<glm::dvec3> ScenePlayer::takeToolImpulses(std::size_t organ) {
+    return guards_[organ] ? guards_[organ]->takeToolImpulses() : std::vector<glm::dvec3>();
 }
 
 } // namespace serosa::app

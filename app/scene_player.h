@@ -2,9 +2,11 @@
 // A scene's state, frame by frame. A frame is always the same number of steps, so what comes after 300 of
 // them is the same bytes however they were paced and drawn: `serosa view` plays what `serosa run` runs.
 
+#include "app/organ_guard.h"
 #include "app/run_setup.h"
 #include "sim/cut_list.h"
 #include "sim/lattice_state.h"
+#include "sim/snapshot.h"
 
 #include <optional>
 #include <string>
@@ -18,10 +20,14 @@ public:
     explicit ScenePlayer(RunParts& parts);
 
     /// One frame of the scene: for each organ its steps, or its next pose; the textures follow. Poses stay as
-    /// they are after the scene's last frame.
+    /// they are after the scene's last frame. Every kFramesBetweenChecks frames the states are checked.
     void advance();
     /// Back to rest, frame 0.
     void reset();
+    /// All of the state, after frame() frames (reads back, stalls). Takes the tools' pending impulses.
+    sim::Snapshot snapshot();
+    /// Goes on from a snapshot that belongs to the scene (app/scene_snapshot.h).
+    void restore(const sim::Snapshot& snapshot);
 
     int frame() const { return frame_; }
     double time() const { return frame_ / parts_.scene.frameRate; } // s
@@ -33,8 +39,15 @@ public:
     const sim::CutList& cuts(std::size_t organ) const { return cuts_[organ]; }
     /// Of all organs, joined by '-': `state_hash` of a run's summary after as many frames.
     std::string stateHash() const;
-    /// The first organ with a node that is not finite, in words; empty where all are.
-    std::string runaway() const;
+    /// Lets the watchdog look at all organs now. One whose state is wrong goes back to its last good one and
+    /// is frozen until the next reset; the others live on.
+    void check();
+    /// Why an organ is frozen, if it is.
+    std::optional<sim::Alarm> alarm(std::size_t organ) const;
+    /// "NAME: ..." a line for each organ that is frozen.
+    std::vector<std::string> alarmLines() const;
+    /// Impulses that the tools gave to an organ since the last call, N s; empty for a pose.
+    std::vector<glm::dvec3> takeToolImpulses(std::size_t organ);
 
 private:
     /// The scene's cuts and tears of the frame that ends now.
@@ -48,6 +61,7 @@ private:
     std::vector<std::size_t> lastCut_;                         // of the scene, that each organ met
     std::vector<std::vector<std::uint32_t>> shownConnections_; // one an organ; empty: nothing is cut
     std::vector<std::optional<sim::LatticeState>> posed_;      // one an organ
+    std::vector<std::optional<OrganGuard>> guards_;            // one an organ; none for a pose
 };
 
 } // namespace serosa::app

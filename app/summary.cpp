@@ -2,8 +2,10 @@
 
 #include "app/summary.h"
 
+#include "app/material_lines.h"
 #include "app/version.h"
 #include "shaders/shared_constants.h"
+#include "sim/assign_materials.h"
 #include "sim/scene_keys.h"
 
 #include <sys/resource.h>
@@ -38,6 +40,32 @@ Json repairJson(const sim::RepairReport& repair) {
             {"stray_vertices_removed", repair.strayVertices}};
 }
 
+Json materialsJson(const sim::Organ& organ, const sim::Lattice& lattice) {
+    const std::vector<sim::MaterialAmount> amounts = sim::materialAmounts(lattice, organ.tissue);
+    Json materials = Json::array();
+    for (std::size_t i = 0; i < amounts.size(); ++i) {
+        const sim::Material& material = organ.tissue.material(i);
+        Json json = {{"name", materialName(organ, i)},
+                     {"young_Pa", material.young},
+                     {"poisson", material.poisson},
+                     {"density_kg_m3", material.density},
+                     {"damping_time_s", material.dampingTime}};
+        for (const sim::CurvePoint& point : material.curve)
+            json["curve"].push_back({{"strain", point.strain}, {"stress_Pa", point.stress}});
+        if (material.strainLimit > 0)
+            json["strain_limit"] = material.strainLimit;
+        if (material.fibrous()) {
+            json["fibre"] = vec(material.fibre);
+            json["fibre_young_Pa"] = material.fibreYoung;
+        }
+        json["cells"] = amounts[i].cells;
+        json["volume_m3"] = amounts[i].volume;
+        json["mass_kg"] = amounts[i].mass;
+        materials.push_back(std::move(json));
+    }
+    return materials;
+}
+
 Json organJson(const sim::Organ& organ, const OrganRecord& record) {
     const sim::Tissue& tissue = organ.tissue;
     Json json = {{"name", organ.name},
@@ -49,7 +77,8 @@ Json organJson(const sim::Organ& organ, const OrganRecord& record) {
                  {"poisson", tissue.poisson},
                  {"density_kg_m3", tissue.density},
                  {"damping_time_s", tissue.dampingTime},
-                 {"air_drag_1_s", tissue.airDrag}};
+                 {"air_drag_1_s", tissue.airDrag},
+                 {"materials", materialsJson(organ, *record.lattice)}};
     if (organ.upAxis != sim::UpAxis::y)
         json["up_axis"] = wordOf("organ", "up_axis", int(organ.upAxis));
     if (record.repair)
@@ -101,6 +130,17 @@ Json cutsJson(const OrganRecord& record) {
             {"loose_nodes", record.pieces.loose}};
 }
 
+Json stoppedJson(const sim::Alarm& alarm) {
+    return {{"node", alarm.node},
+            {"position_m", vec(alarm.position)},
+            {"t_s", alarm.time},
+            {"step", alarm.step},
+            {"reason", sim::alarmName(alarm.kind)},
+            {"measured", alarm.measured},
+            {"allowed", alarm.allowed},
+            {"text", alarm.text()}};
+}
+
 /// What a scene of one organ says at the top of the summary, together.
 Json organsJson(const RunRecord& record) {
     Json organs = Json::array();
@@ -113,6 +153,8 @@ Json organsJson(const RunRecord& record) {
         json["binding"] = bindingJson(*organ.binding);
         if (organ.strokes > 0)
             json["cuts"] = cutsJson(organ);
+        if (organ.alarm)
+            json["stopped"] = stoppedJson(*organ.alarm);
         json["largest_displacement_m"] = organ.largestDisplacement;
         json["inverted_cells"] = organ.invertedCells;
         json["state_hash"] = organ.stateHash;
@@ -231,10 +273,19 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     json["frame_rate_Hz"] = scene.frameRate;
     json["frames_asked"] = scene.frames();
     json["frames"] = record.framesDone;
+    if (record.from)
+        json["from"] = {{"snapshot", record.from->snapshot},
+                        {"frame", record.from->frame},
+                        {"t_s", record.from->frame / scene.frameRate},
+                        {"solver", record.from->solver}};
     json["end"] = record.end;
+    if (single && record.organs.front().alarm)
+        json["stopped"] = stoppedJson(*record.organs.front().alarm);
     json["picture_size"] = {scene.output.width, scene.output.height};
     json["pictures"] = record.picturesWritten;
     json["surfaces"] = record.surfacesWritten;
+    json["snapshots"] = record.snapshotsWritten;
+    json["displacements"] = record.displacementsWritten;
     if (single)
         json["binding"] = bindingJson(*record.organs.front().binding);
     if (single && record.organs.front().strokes > 0)

@@ -11,6 +11,7 @@
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
+#include "sim/watchdog.h"
 
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -51,6 +52,14 @@ struct OrganRecord {
     std::string stateHash;
     std::size_t strokes = 0, springsCut = 0; // of the last sampled state
     sim::PieceCount pieces;
+    std::optional<sim::Alarm> alarm; // of the watchdog, which froze it
+};
+
+/// Where a run began that did not begin at rest.
+struct RunStart {
+    std::string snapshot; // file name
+    int frame = 0;
+    std::string solver; // that made it
 };
 
 struct RunRecord {
@@ -59,7 +68,9 @@ struct RunRecord {
     gpu::ContextInfo gl;
     std::vector<OrganRecord> organs; // in the scene's order
     int framesDone = 0, picturesWritten = 0, surfacesWritten = 0;
-    std::string end = "complete";      // or "interrupted", "not finite"
+    int snapshotsWritten = 0, displacementsWritten = 0;
+    std::optional<RunStart> from;
+    std::string end = "complete";      // or "interrupted", "organ stopped"
     double largestDisplacement = 0;    // m, over the samples and organs
     std::vector<EnergySample> samples; // sums over the organs
     std::vector<ToolForce> toolForces; // sums over the organs

@@ -132,6 +132,8 @@ const std::vector<VerifyGroup>& verifyGroups() {
          verifyMaterials},
         {"cuts", "strokes through the lattice: what they cut, on CPU and GPU, and what falls apart", true,
          verifyCuts},
+        {"stability", "random organs, tools and cuts: no state runs away, and the step's bound is one", true,
+         verifyStability},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;

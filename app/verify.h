@@ -71,6 +71,7 @@ Status verifySolver(const VerifyOptions& options, CheckList& checks);    // app/
 Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/verify_mapping.cpp
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify_materials.cpp
 Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify_cuts.cpp
+Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify_stability.cpp
 
 /// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json and report.html if
 /// folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).

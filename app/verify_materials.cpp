@@ -1,14 +1,10 @@
 // Group `materials`: what tissue of a given Young's modulus and Poisson's ratio does against the theory of
 // elasticity. Statics by a linear solution in double with the same springs and cells (tied to the reference
 // solver by its forces); large strains and float32 by the solvers themselves.
-#include "app/verify_materials.h"
-
 #include "app/elastic_measures.h"
-#include "app/organ_setup.h"
+#include "app/material_checks.h"
 #include "models/phantom.h"
-#include "models/simple_shapes.h"
 #include "shaders/shared_constants.h"
-#include "sim/cell_volumes.h"
 #include "sim/cpu_solver.h"
 
 #include <cmath>
@@ -24,12 +20,8 @@ using sim::SolverSetup;
 
 constexpr double kSpacing = 0.003; // m
 
-std::string nameOf(double poisson) {
-    return "nu " + shortNumber(poisson);
-}
-
-/// Tension, bending, torsion and pressure of beams and blocks 10 cells thick, aligned and in three random
-/// turns.
+/// Tension, shear, bending, torsion and pressure of beams and blocks 10 cells thick, aligned and in three
+/// random turns.
 void beams(const VerifyOptions& options, CheckList& checks) {
     for (std::uint32_t turn = 0; turn < 4; ++turn) {
         const std::string name = turn == 0 ? "aligned" : "turn " + std::to_string(turn);
@@ -41,10 +33,16 @@ void beams(const VerifyOptions& options, CheckList& checks) {
                 ((turn == 0 && poisson > 0.3 && poisson < 0.48) || (turn > 1 && poisson != 0.45)))
                 continue;
             const std::string piece = "beam, " + name + ", " + nameOf(poisson);
-            const sim::Tissue tissue = verifiedTissue(options, poisson);
+            const sim::Tissue tissue = tissueOf(options, poisson);
             const BeamMeasures measures = measureBeam(beam, tissue, true);
+            const double shear = shearShare(beam, tissue); // of k/h
             checks.equalRel(piece + ": Young's modulus / given", measures.youngShare, 1, 0.03, "1");
             checks.equalRel(piece + ": Poisson's ratio", measures.poisson, poisson, 0.03, "1");
+            for (const auto& [young, density] : {std::pair(5000.0, 1000.0), std::pair(20000.0, 1060.0)})
+                checks.equalRel(piece + ", E " + shortNumber(1e-3 * young) + " kPa: shear modulus",
+                                shear * tissueOf(options, poisson, young, density).springConstant(kSpacing) /
+                                    kSpacing,
+                                young / (2 * (1 + poisson)), 0.03, "Pa");
             checks.equalRel(piece + ": bending stiffness / E I", measures.bendingShare, 1, 0.05, "1");
             // The section's shape, as 10 cells resolve it, enters with the fourth power.
             checks.equalRel(piece + ": torsional stiffness / (mu J)", measures.torsionShare, 1, 0.08, "1");
@@ -61,7 +59,7 @@ void forces(const VerifyOptions& options, CheckList& checks) {
     for (const double poisson : {0.35, 0.49}) {
         SolverSetup setup;
         setup.lattice = &beam.lattice;
-        setup.tissue = verifiedTissue(options, poisson);
+        setup.tissue = tissueOf(options, poisson);
         setup.tissue.dampingTime = 0;
         setup.timeStep = sim::stableStep(beam.lattice, setup.tissue, 1).timeStep;
         checks.atMost("beam, " + nameOf(poisson) + ": reference force against the linear stiffness",
@@ -70,13 +68,15 @@ void forces(const VerifyOptions& options, CheckList& checks) {
 }
 
 void cantilevers(const VerifyOptions& options, CheckList& checks) {
-    for (const double poisson : {0.25, 0.45, 0.49}) {
+    for (const double poisson : {0.25, 0.35, 0.45, 0.49}) {
+        if (!options.full && poisson == 0.35)
+            continue;
         std::vector<double> errors;
         for (const int cells : {4, 6, 10}) {
             if (cells == 10 && !options.full && poisson != 0.45)
                 continue;
             const Beam beam = makeBeam(cells, 6 * cells, glm::dmat3(1), kSpacing);
-            const double share = cantileverSagShare(beam, verifiedTissue(options, poisson));
+            const double share = cantileverSagShare(beam, tissueOf(options, poisson));
             errors.push_back(std::abs(share - 1));
             if (cells > 4)
                 checks.equalRel("cantilever " + std::to_string(cells) + " cells thick, " + nameOf(poisson) +
@@ -89,47 +89,12 @@ void cantilevers(const VerifyOptions& options, CheckList& checks) {
     }
 }
 
-/// A ball between two large spheres, pressed to four fifths of its height, at rest.
-Status squeezedBall(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 2000));
-    const double radius = 1e-3 * models::kBallRadius, tool = 20 * radius, press = 0.2 * radius;
-    const glm::dvec3 middle = ball.toWorld(0.5 * glm::dvec3(ball.nodeDims - 1) - glm::dvec3(ball.centre));
-    SolverSetup setup;
-    setup.lattice = &ball;
-    setup.tissue = verifiedTissue(options, 0.49);
-    setup.tissue.dampingTime = 0.002;
-    setup.tissue.airDrag = 20;
-    setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
-    for (const double side : {-1.0, 1.0}) {
-        const glm::dvec3 start = middle + glm::dvec3(0, side * (tool + radius), 0);
-        setup.tools.push_back({"plate",
-                               sim::ToolMode::push,
-                               tool,
-                               {{0, start}, {0.3, start - glm::dvec3(0, side * press, 0)}}});
-    }
-    SEROSA_ASSIGN(const std::unique_ptr<sim::Solver> solver, sim::makeFragmentSolver(setup));
-    solver->advance(int(0.5 / setup.timeStep));
-    const LatticeState state = solver->state();
-    const std::vector<double> volumes = sim::cellVolumeRatios(ball, state);
-    double sum = 0, fills = 0, height = 0;
-    for (std::size_t cell = 0; cell < volumes.size(); ++cell) {
-        sum += ball.cells[cell].fill * volumes[cell];
-        fills += ball.cells[cell].fill;
-    }
-    for (std::size_t node = 0; node < ball.nodeCount(); ++node)
-        if (ball.restDepth(node) >= 0) // of what is inside: nodes around it may enter the plates
-            height = std::max(height, std::abs((ball.toWorld(state.positions[node]) - middle).y));
-    checks.atMost("ball squeezed at nu 0.49: height / rest", height / radius, 0.85, "1");
-    checks.equalAbs("ball squeezed at nu 0.49: volume change", sum / fills - 1, 0, 0.02, "1");
-    return {};
-}
-
 /// The heart pressed by a probe: the fragment solver on both texture layouts, and the CPU solver.
 Status solversAgainstReference(const VerifyOptions& options, CheckList& checks) {
     SEROSA_ASSIGN(const Lattice heart, models::phantomLattice("heart", 20000, options.full ? 20000 : 6000));
     SolverSetup setup;
     setup.lattice = &heart;
-    setup.tissue = verifiedTissue({}, 0.45);
+    setup.tissue = tissueOf({}, 0.45);
     setup.tissue.recovery = true;
     setup.gravity = {0, -9.81, 0};
     setup.timeStep = sim::stableStep(heart, setup.tissue, 1.0 / 60).timeStep;
@@ -177,7 +142,7 @@ Status momentum(const VerifyOptions& options, CheckList& checks) {
     SEROSA_ASSIGN(const Lattice ball, models::phantomLattice("ball", 5000, 3000));
     SolverSetup setup;
     setup.lattice = &ball;
-    setup.tissue = verifiedTissue(options, 0.49);
+    setup.tissue = tissueOf(options, 0.49);
     setup.tissue.recovery = true;
     setup.timeStep = sim::stableStep(ball, setup.tissue, 1).timeStep;
     LatticeState state = sim::restState(ball);
@@ -209,21 +174,13 @@ Status momentum(const VerifyOptions& options, CheckList& checks) {
 
 } // namespace
 
-sim::Tissue verifiedTissue(const VerifyOptions& options, double poisson, double young) {
-    sim::Tissue tissue;
-    tissue.poisson = poisson;
-    tissue.young = young;
-    if (options.inject.fault == Fault::stiffness)
-        tissue.young *= options.inject.factor;
-    return tissue;
-}
-
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks) {
     beams(options, checks);
     forces(options, checks);
     cantilevers(options, checks);
     SEROSA_TRY(verifyComposites(options, checks));
-    SEROSA_TRY(squeezedBall(options, checks));
+    SEROSA_TRY(verifyToolForces(options, checks));
+    SEROSA_TRY(verifySqueeze(options, checks));
     SEROSA_TRY(momentum(options, checks));
     return solversAgainstReference(options, checks);
 }

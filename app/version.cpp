@@ -2,6 +2,8 @@
 
 #include "app/version.h"
 
+#include "app/vector_image.h"
+
 #include <OpenMesh/Core/System/config.h>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
@@ -32,6 +34,7 @@ std::vector<std::pair<std::string, std::string>> partVersions() {
         {"tomlplusplus", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
         {"nlohmann_json",
          dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+        {"itk", imageLibraryVersion()},
     };
 }
 

@@ -25,7 +25,6 @@ namespace {
 constexpr int kExitInterrupted = 130;
 constexpr int kMostFramesOwed = 8;          // beyond, the simulation runs slower than real time
 constexpr double kMostSecondsAWhile = 0.03; // of steps between two pictures
-constexpr int kFramesBetweenChecks = 60;    // whether the state is finite
 constexpr double kIdleWait = 0.1;           // s: paused, between looks at the window
 constexpr double kIdleRedraw = 0.5;         // s: paused, a picture at least so often
 constexpr int kRedrawsAfterEvent = 3;       // the panel needs more than one to settle
@@ -76,11 +75,11 @@ public:
                              exitNoGl};
             ended = controls_.quit || window_.closing() || interrupt.interrupted() || reachedEnd();
         }
-        const std::string runaway = player_.runaway();
+        player_.check();
         out_ << "frame " << player_.frame() << ": t = " << player_.time() << " s, state "
              << player_.stateHash() << std::endl;
-        if (!runaway.empty())
-            return Error{runaway + " at frame " + std::to_string(player_.frame()), exitCheckFailed};
+        if (const std::vector<std::string> stopped = player_.alarmLines(); !stopped.empty())
+            return Error{"stopped by the watchdog: " + stopped.front(), exitCheckFailed};
         return interrupt.interrupted() ? kExitInterrupted : int(exitOk);
     }
 
@@ -115,11 +114,13 @@ private:
         player_.advance();
         glFinish();
         smooth(readings_.stepsMs, 1e3 * secondsSince(start));
-        if (player_.frame() % kFramesBetweenChecks == 0)
-            if (const std::string runaway = player_.runaway(); !runaway.empty()) {
-                controls_.paused = wasPaused_ = true;
-                say(runaway + ": paused; r goes back to rest", true);
-            }
+        if (const std::vector<std::string> stopped = player_.alarmLines(); stopped != readings_.stopped) {
+            for (const std::string& line : stopped)
+                if (std::find(readings_.stopped.begin(), readings_.stopped.end(), line) ==
+                    readings_.stopped.end())
+                    say("stopped by the watchdog: " + line, true);
+            readings_.stopped = stopped;
+        }
     }
 
     /// The frames that are due, as far as they can be taken before the next picture.
@@ -128,6 +129,7 @@ private:
         lastLook_ = Clock::now();
         if (controls_.restart) {
             player_.reset();
+            readings_.stopped = player_.alarmLines();
             clock_.restart();
             say("back at rest");
         }

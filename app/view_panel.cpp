@@ -50,6 +50,11 @@ void drawReadings(const ViewReadings& readings) {
         reading("real time", "x %.2f", readings.realTime);
     else
         ImGui::TextDisabled("stopped");
+    for (const std::string& line : readings.stopped) {
+        ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+        ImGui::TextWrapped("%s. Stays so until a restart (r).", line.c_str());
+        ImGui::PopStyleColor();
+    }
 }
 
 void drawSwitches(ViewControls& controls) {

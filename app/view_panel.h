@@ -5,6 +5,7 @@
 #include "gpu/context_window.h"
 
 #include <string>
+#include <vector>
 
 namespace serosa::app {
 
@@ -12,13 +13,14 @@ struct ViewReadings {
     std::string scene, renderer; // names
     std::size_t nodes = 0, vertices = 0;
     int frame = 0, stepsPerFrame = 0;
-    double time = 0;       // s, simulated
-    double stepMs = 0;     // one step
-    double stepsMs = 0;    // all steps of a frame
-    double drawMs = 0;     // one picture
-    double realTime = 0;   // simulated time over wall time, lately; 0 while paused
-    bool software = false; // the CPU draws
-    std::string message;   // what happened last
+    double time = 0;                  // s, simulated
+    double stepMs = 0;                // one step
+    double stepsMs = 0;               // all steps of a frame
+    double drawMs = 0;                // one picture
+    double realTime = 0;              // simulated time over wall time, lately; 0 while paused
+    bool software = false;            // the CPU draws
+    std::vector<std::string> stopped; // a line for each organ that the watchdog froze
+    std::string message;              // what happened last
     bool isError = false;
 };
 

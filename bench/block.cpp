@@ -1,16 +1,17 @@
 // Lattices that the benchmarks step.
 
 #include "bench/cases.h"
+#include "gpu/gl.h"
 #include "models/phantom.h"
 
 namespace serosa::bench {
 
-Block::Block(sim::Lattice made, double young) : lattice(std::move(made)) {
+Block::Block(sim::Lattice made, double young, double timeStep) : lattice(std::move(made)) {
     setup.lattice = &lattice;
     setup.tissue.young = young;
     setup.tissue.density = 1060;
     setup.gravity = {0, -9.81, 0};
-    setup.timeStep = sim::stableStep(lattice, setup.tissue, 1.0 / 60).timeStep;
+    setup.timeStep = timeStep > 0 ? timeStep : sim::stableStep(lattice, setup.tissue, 1.0 / 60).timeStep;
     setup.fixed.resize(lattice.nodeCount());
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         setup.fixed[node] = lattice.nodes[node].y == 0;
@@ -31,6 +32,22 @@ Result<const sim::TriangleMesh*> heartSurface() {
         SEROSA_ASSIGN(heart, models::phantomInMetres("heart", 50000));
     }
     return &heart;
+}
+
+Result<sim::Lattice> heartLattice(std::size_t nodes) {
+    SEROSA_ASSIGN(const sim::TriangleMesh* heart, heartSurface());
+    sim::LatticeRequest request;
+    request.nodes = nodes;
+    return sim::buildLattice(*heart, request);
+}
+
+void addSolver(Rounds& rounds, const std::string& name, sim::Solver& solver) {
+    const bool onGpu = solver.textures() != nullptr;
+    rounds.add(name, [&solver, onGpu](int repeats) {
+        solver.advance(repeats);
+        if (onGpu)
+            glFinish();
+    });
 }
 
 Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block, const sim::FragmentOptions& options) {

@@ -13,14 +13,15 @@ namespace serosa::bench {
 struct Options {
     int rounds = 5;
     double seconds = 0.4;          // a turn of a case
-    std::size_t largest = 1000000; // nodes, of the growth and large tables
+    std::size_t largest = 1000000; // nodes, of the growth, realtime, gpu and large tables
 };
 
 /// A lattice with all that a solver needs, at rest, loaded by gravity. Does not move.
 struct Block {
     sim::Lattice lattice;
     sim::SolverSetup setup;
-    Block(sim::Lattice made, double young);
+    /// \param young Pa \param timeStep s; 0: the stable one, which takes long for millions of nodes
+    Block(sim::Lattice made, double young, double timeStep = 0);
     Block(const Block&) = delete;
 };
 /// n^3 nodes, all cells full, spacing 2.5 mm.
@@ -28,6 +29,11 @@ sim::Lattice denseLattice(int nodesAlongAnEdge);
 /// The heart phantom's surface in metres (made once).
 Result<const sim::TriangleMesh*> heartSurface();
 
+/// The heart phantom in about so many nodes.
+Result<sim::Lattice> heartLattice(std::size_t nodes);
+
+/// Adds the steps of a solver as a case; those of a solver in textures are waited for.
+void addSolver(Rounds& rounds, const std::string& name, sim::Solver& solver);
 /// A fragment solver behind the `advance, then wait` that Rounds wants.
 Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block,
                                                     const sim::FragmentOptions& options = {});
@@ -43,6 +49,13 @@ Status benchCompute(const Options& options, Report& report);
 /// mapping_over_static, corrected_over_constant(_frame), vertex fetch against readback, and MS05's own table
 /// (bench/mapping_cases.cpp).
 Status benchMapping(const Options& options, Report& report);
+/// What fills, normals, damping, the volumetric term, materials, cuts and tools cost as shares of a step, and
+/// what a stroke takes (bench/tissue_cases.cpp).
+Status benchTissue(const Options& options, Report& report);
+/// Simulated seconds a second, and how many nodes keep up with time (bench/realtime_cases.cpp).
+Status benchRealtime(const Options& options, Report& report);
+/// Microseconds a step from 20,000 to 8 million nodes beside the copy bandwidth (bench/gpu_cases.cpp).
+Status benchGpu(const Options& options, Report& report);
 /// Time and bytes a node from 5,000 nodes upwards, for both layouts (bench/growth_cases.cpp).
 Status benchGrowth(const Options& options, Report& report);
 /// Time and memory of whole runs, up to a million nodes and faces (bench/large_cases.cpp).

@@ -80,8 +80,7 @@ Status benchCompute(const Options& options, Report& report) {
     const Block dense(denseLattice(27), kYoung);
     SEROSA_TRY(benchBlock("dense block of 27^3 = 19,683 nodes, grid layout", "compute_over_fragment_dense20k",
                           dense, SRS_LAYOUT_GRID, options, report));
-    SEROSA_ASSIGN(const sim::TriangleMesh* heart, heartSurface());
-    SEROSA_ASSIGN(sim::Lattice lattice, sim::buildLattice(*heart, {}));
+    SEROSA_ASSIGN(sim::Lattice lattice, heartLattice(20000));
     const Block sparse(std::move(lattice), kYoung);
     return benchBlock("heart phantom, " + std::to_string(sparse.lattice.nodeCount()) + " nodes, rows layout",
                       "compute_over_fragment_sparse20k", sparse, SRS_LAYOUT_ROWS, options, report);

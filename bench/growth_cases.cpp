@@ -58,7 +58,6 @@ Result<std::vector<std::string>> growthRow(const char* what, sim::Lattice lattic
 } // namespace
 
 Status benchGrowth(const Options& options, Report& report) {
-    SEROSA_ASSIGN(const sim::TriangleMesh* heart, heartSurface());
     std::vector<std::vector<std::string>> rows;
     for (const std::size_t nodes : kNodes) {
         if (nodes > options.largest)
@@ -67,9 +66,7 @@ Status benchGrowth(const Options& options, Report& report) {
             std::vector<std::string> dense,
             growthRow("dense block", denseLattice(int(std::lround(std::cbrt(double(nodes))))), options));
         rows.push_back(std::move(dense));
-        sim::LatticeRequest request;
-        request.nodes = nodes;
-        SEROSA_ASSIGN(sim::Lattice lattice, sim::buildLattice(*heart, request));
+        SEROSA_ASSIGN(sim::Lattice lattice, heartLattice(nodes));
         SEROSA_ASSIGN(std::vector<std::string> sparse, growthRow("heart", std::move(lattice), options));
         rows.push_back(std::move(sparse));
     }

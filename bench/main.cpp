@@ -4,24 +4,29 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <iostream>
-#include <map>
 
 namespace serosa::bench {
 
 namespace {
 
+struct Group {
+    const char* name;
+    Status (*run)(const Options&, Report&);
+};
+constexpr Group kGroups[] = {{"solver", benchSolver}, {"cpu", benchCpu},           {"compute", benchCompute},
+                             {"tissue", benchTissue}, {"realtime", benchRealtime}, {"mapping", benchMapping},
+                             {"growth", benchGrowth}, {"gpu", benchGpu},           {"large", benchLarge}};
+
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {
-    const std::map<std::string, Status (*)(const Options&, Report&)> all{
-        {"solver", benchSolver},   {"cpu", benchCpu},       {"compute", benchCompute},
-        {"mapping", benchMapping}, {"growth", benchGrowth}, {"large", benchLarge}};
     report.line("Renderer: " + context.info().renderer + ", " + context.info().version + ". " +
                 std::to_string(options.rounds) +
                 " interleaved rounds; median (smallest-largest). Only ratios count.");
-    for (const char* group : {"solver", "cpu", "compute", "mapping", "growth", "large"})
-        if (groups.empty() || std::find(groups.begin(), groups.end(), group) != groups.end())
-            SEROSA_TRY(all.at(group)(options, report));
+    for (const Group& group : kGroups)
+        if (groups.empty() || std::find(groups.begin(), groups.end(), group.name) != groups.end())
+            SEROSA_TRY(group.run(options, report));
     report.ratioTable();
     return {};
 }
@@ -36,12 +41,15 @@ int main(int argc, char** argv) {
     bench::Options options;
     std::vector<std::string> groups;
     std::string folder = "out/bench", gl = "auto";
-    app.add_option("group", groups, "solver, cpu, compute, mapping, growth, large; all if none is named")
-        ->check(CLI::IsMember({"solver", "cpu", "compute", "mapping", "growth", "large"}));
+    std::vector<std::string> names;
+    for (const bench::Group& group : bench::kGroups)
+        names.push_back(group.name);
+    app.add_option("group", groups, "what to measure; everything if none is named")
+        ->check(CLI::IsMember(names));
     app.add_option("--rounds", options.rounds, "interleaved rounds")->check(CLI::Range(1, 1000));
     app.add_option("--seconds", options.seconds, "length of a turn of a case")
         ->check(CLI::Range(0.001, 60.0));
-    app.add_option("--largest", options.largest, "largest lattice of the growth and large tables, nodes");
+    app.add_option("--largest", options.largest, "largest lattice of the tables that grow, nodes");
     app.add_option("--gl", gl, "auto, egl, egl-device or osmesa");
     app.add_option("--out", folder, "folder for ratios.json and bench.md");
     CLI11_PARSE(app, argc, argv);

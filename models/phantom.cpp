@@ -49,6 +49,7 @@ const std::vector<Phantom>& table() {
         {{"torso", "trunk of a man, 600 mm high, whose chest CS07 peels in figure 1", 25000}, makeTorso},
         {{"mask", "face mask that lies under the skin of the torso's chest", 10000}, makeMask},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
+        {{"layer", "flat layer, 120 x 48 x 120 mm with sharp edges, to be indented", 11520}, makeLayer},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
     return list;

@@ -80,6 +80,16 @@ Result<sim::TriangleMesh> makeBeam(std::size_t faces) {
     return makeGridBox(extent, best);
 }
 
+Result<sim::TriangleMesh> makeLayer(std::size_t faces) {
+    const int n =
+        std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(faces) / 180) - 1e-9)));
+    const std::size_t count = 180 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+    if (n > 150 || static_cast<double>(count) > 1.05 * static_cast<double>(std::max<std::size_t>(faces, 180)))
+        return Error{"the layer phantom has 180 n^2 faces; " + std::to_string(faces) +
+                     " is not within 5% below one: ask for " + std::to_string(count)};
+    return makeGridBox({120, 48, 120}, n * glm::ivec3(5, 2, 5));
+}
+
 Result<sim::TriangleMesh> makeBall(std::size_t faces) {
     // An icosahedron whose faces are cut into n x n: 20 n^2 faces.
     const int n = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(faces) / 20) - 1e-9)));

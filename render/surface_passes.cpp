@@ -179,7 +179,9 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
 
 gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                                      SurfaceColour colour, const glm::vec3& bare) {
-    gpu::Program& program = programs_.at({stage, colour});
+    // Colours of materials are those of the vertices, as the tissue's are.
+    gpu::Program& program =
+        programs_.at({stage, colour == SurfaceColour::dynamicNormal ? colour : SurfaceColour::tissue});
     program.set("u_clipFromLattice", frame.clipFromLattice);
     program.set("u_section", frame.section);
     if (stage != SurfaceStage::undeformed)

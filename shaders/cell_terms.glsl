@@ -54,7 +54,8 @@ CellTerm cellTerm(ivec2 texel) {
     factor = stiffening(material, springEnergy(material, bits, p) + 0.5 * bulk * (J - 1.0) * (J - 1.0));
 #endif
     if (whole)
-        pressure = factor * bulk * (J - 1.0) - u_recoveries[material] * max(0.0, SRS_COLLAPSED - J);
+        pressure =
+            factor * bulk * (J - 1.0) - u_recoveries[material] * max(0.0, SRS_COLLAPSED - J) * soft * soft;
     term.x = vec4(fill * pressure * x, J);
     term.y = vec4(fill * pressure * y, factor);
     term.z = vec4(fill * pressure * z, 0.0);

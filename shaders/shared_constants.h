@@ -6,7 +6,7 @@
 // .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w =
 // materials of these cells, 4 bits each.
 #define SRS_CONNECTION_MASK 0x3ffffu
-#define SRS_DEPTH_SHIFT 18 // below the surface: steps of 1/85 spacing from -2 (sim/node_depths.h)
+#define SRS_DEPTH_SHIFT 18 // below the surface, as contact counts it: steps of 1/85 spacing from -2 (sim/node_depths.h)
 #define SRS_DEPTH_MASK 0xffu
 #define SRS_FLAG_ACTIVE (1u << 26)
 #define SRS_FLAG_FIXED (1u << 27)

@@ -25,19 +25,19 @@ void addSpring(float weight, float damping, float rest, float rest2, ivec2 texel
     vec3 d = g_position - loadPosition(texel);
 #if SRS_EQUATION == 2
     // Scaled so that the square root is of 1 at rest: the rest state then has no force at all in float32.
-    float stretch = inversesqrt(max(dot(d, d) * (1.0 / rest2), 1e-12));
-    vec3 unit = d * (stretch * (1.0 / rest));
-    g_force += (weight * (stretch - 1.0)) * d;
+    float stretch = inversesqrt(max(dot(d, d) * (1.0 / rest2), 1e-12)); // rest length over length
+    float pull = weight * (stretch - 1.0);
 #else
     float len = max(length(d), 1e-6);
-    vec3 unit = d / len;
-    g_force += weight * (rest - len) * unit;
+    float stretch = rest / len;
+    float pull = weight * (rest - len) / len;
 #endif
 #ifdef SRS_DAMPING
-    g_force -= (damping * dot(unit, g_increment - loadIncrement(texel))) * unit;
+    pull -= damping * (1.0 / rest2) * (stretch * stretch) * dot(d, g_increment - loadIncrement(texel));
 #endif
+    g_force += pull * d;
 #ifdef SRS_NORMALS
-    g_normal += weight > 0.0 ? unit : vec3(0.0); // eq. 3
+    g_normal += (weight > 0.0 ? stretch * (1.0 / rest) : 0.0) * d; // eq. 3
 #endif
 }
 

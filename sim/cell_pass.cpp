@@ -37,7 +37,7 @@ void setMaterials(gpu::Program& program, const Tissue& tissue) {
 } // namespace
 
 Status CellPass::initialize(const SolverSetup& setup, const StateTextures& textures,
-                            const std::vector<gpu::ShaderDefine>& defines, gpu::Program& step, bool compute) {
+                            const std::vector<gpu::ShaderDefine>& defines, StepProgram& step, bool compute) {
     const TextureLayout& layout = textures.layout();
     const gpu::ShaderLibrary library;
     compute_ = compute;

@@ -6,6 +6,7 @@
 #include "gpu/program.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
+#include "sim/step_program.h"
 
 #include <vector>
 
@@ -20,7 +21,7 @@ public:
     /// \param defines kernelDefines of the step \param compute a compute pass; else a fragment pass
     /// Errors: of the shaders.
     Status initialize(const SolverSetup& setup, const StateTextures& textures,
-                      const std::vector<gpu::ShaderDefine>& defines, gpu::Program& step, bool compute);
+                      const std::vector<gpu::ShaderDefine>& defines, StepProgram& step, bool compute);
     /// From the current positions and node info. The barriers that its reads and writes need are its own.
     void run(const StateTextures& textures);
     /// Texture memory; 0 before initialize().

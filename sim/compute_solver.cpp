@@ -29,7 +29,7 @@ public:
         // What earlier draws wrote as render targets or uploads must be visible to the first step.
         glMemoryBarrier(GL_ALL_BARRIER_BITS);
         for (int i = 0; i < count; ++i)
-            takeStep();
+            takeStep(i + 1 == count);
         // Drawing fetches the textures; readback and upload copy them.
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
                         GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -72,7 +72,7 @@ private:
         if (tiles)
             defines.push_back({"SRS_TILES", "1"});
         const gpu::ShaderLibrary library;
-        SEROSA_ASSIGN(stepProgram_, gpu::Program::create(library, {"solver_step.comp"}, defines));
+        SEROSA_ASSIGN(stepProgram_, StepProgram::create(library, {"solver_step.comp"}, defines, options_));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"grasp.comp"}));
         if (CellPass::needed(setup_.tissue))
             SEROSA_TRY(cellPass_.initialize(setup_, textures_, kernelDefines(setup_, layout, options_),
@@ -101,7 +101,7 @@ private:
         return {};
     }
 
-    void takeStep() {
+    void takeStep(bool last) {
         setTools();
         if (CellPass::needed(setup_.tissue))
             cellPass_.run(textures_);
@@ -109,7 +109,7 @@ private:
         const std::size_t to = std::size_t(nextHalf());
         stepProgram_.image("i_newPositions", textures_.positions_[to], GL_WRITE_ONLY);
         stepProgram_.image("i_newIncrements", textures_.increments_[to], GL_WRITE_ONLY);
-        stepProgram_.dispatch(items_);
+        stepProgram_.of(last).dispatch(items_);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                         GL_SHADER_STORAGE_BARRIER_BIT);
         finishStep();

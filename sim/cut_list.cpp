@@ -42,6 +42,14 @@ std::size_t CutList::strokes() const {
                                      [](const Entry& entry) { return !entry.stroke.continues; }));
 }
 
+CutLayer cutLayerOf(const std::vector<std::uint32_t>& words) {
+    CutLayer layer;
+    for (std::size_t node = 0; node < words.size(); ++node)
+        if (words[node] != 0)
+            layer.push_back({std::uint32_t(node), words[node]});
+    return layer;
+}
+
 Status Solver::cut(const Stroke& stroke) {
     LatticeState now = state();
     if (now.connections.empty())
@@ -73,6 +81,21 @@ bool Solver::undoCut() {
 
 void Solver::forgetCuts() {
     cutLayers_.clear();
+}
+
+std::vector<CutLayer> Solver::cutLayers() const {
+    std::vector<CutLayer> layers;
+    for (const std::vector<std::uint32_t>& words : cutLayers_)
+        layers.push_back(cutLayerOf(words));
+    return layers;
+}
+
+Status Solver::setCutLayers(const std::vector<CutLayer>& layers) {
+    cutLayers_.assign(layers.size(), std::vector<std::uint32_t>(lattice().nodeCount(), 0u));
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        for (const ClearedBits& cleared : layers[i])
+            cutLayers_[i][cleared.node] = cleared.bits;
+    return {};
 }
 
 Result<std::vector<std::uint32_t>> Solver::pieces() const {

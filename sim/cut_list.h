@@ -6,9 +6,13 @@
 #include "sim/solver.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace serosa::sim {
+
+/// The nodes of which a stroke cleared something, from one word a node.
+CutLayer cutLayerOf(const std::vector<std::uint32_t>& words);
 
 class CutList {
 public:
@@ -26,6 +30,8 @@ public:
     /// Solver::cut.
     Status replay(Solver& solver, std::int64_t step) const;
     void clear() { entries_.clear(); }
+    /// The list of a state that was set, with its layers (Solver::setCutLayers).
+    void assign(std::vector<Entry> entries) { entries_ = std::move(entries); }
 
     const std::vector<Entry>& entries() const { return entries_; }
     /// Strokes; the parts of one count together.

@@ -2,6 +2,7 @@
 #include "sim/cut_pass.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/cut_list.h"
 
 #include <array>
 #include <bit>
@@ -84,6 +85,35 @@ bool CutPass::undo(StateTextures& textures) {
     rewriteInfo(textures, undoProgram_);
     layers_.pop_back();
     return true;
+}
+
+std::vector<CutLayer> CutPass::layers(const StateTextures& textures) const {
+    const TextureLayout& layout = textures.layout();
+    std::vector<CutLayer> all;
+    std::vector<std::uint32_t> texels(layout.texels()), words(layout.texelOfNode.size());
+    for (const gpu::Texture2D& layer : layers_) {
+        layer.download(texels.data(), texels.size() * sizeof texels[0]);
+        for (std::size_t node = 0; node < words.size(); ++node)
+            words[node] = texels[textures.linearTexel(node)];
+        all.push_back(cutLayerOf(words));
+    }
+    return all;
+}
+
+Status CutPass::setLayers(const StateTextures& textures, const std::vector<CutLayer>& layers) {
+    layers_.clear();
+    if (layers.empty())
+        return {};
+    SEROSA_TRY(initialize(textures));
+    const TextureLayout& layout = textures.layout();
+    for (const CutLayer& layer : layers) {
+        std::vector<std::uint32_t> texels(layout.texels(), 0u);
+        for (const ClearedBits& cleared : layer)
+            texels[textures.linearTexel(cleared.node)] = cleared.bits;
+        layers_.emplace_back("cut by a stroke", GL_R32UI, layout.width, layout.height);
+        layers_.back().upload(texels.data());
+    }
+    return {};
 }
 
 Result<std::vector<std::uint32_t>> CutPass::pieces(const StateTextures& textures) {

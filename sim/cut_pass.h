@@ -5,6 +5,7 @@
 #include "base/result.h"
 #include "gpu/program.h"
 #include "sim/blade.h"
+#include "sim/solver.h"
 #include "sim/state_textures.h"
 
 #include <cstdint>
@@ -22,6 +23,9 @@ public:
     /// Gives the last stroke's bits back. False: none left.
     bool undo(StateTextures& textures);
     void forget() { layers_.clear(); }
+    /// As Solver::cutLayers and Solver::setCutLayers. Reading back stalls.
+    std::vector<CutLayer> layers(const StateTextures& textures) const;
+    Status setLayers(const StateTextures& textures, const std::vector<CutLayer>& layers);
     /// Labels of the pieces (sim/pieces.h), one a node. Reads back (stalls).
     Result<std::vector<std::uint32_t>> pieces(const StateTextures& textures);
 

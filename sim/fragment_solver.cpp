@@ -25,7 +25,7 @@ public:
             glBlendFunci(GLuint(2 + tool), GL_ONE, GL_ONE);
         }
         for (int i = 0; i < count; ++i)
-            takeStep();
+            takeStep(i + 1 == count);
         for (std::size_t tool = 0; tool < setup_.tools.size(); ++tool)
             glDisablei(GL_BLEND, GLuint(2 + tool));
     }
@@ -55,7 +55,7 @@ private:
         const gpu::ShaderLibrary library;
         const std::vector<gpu::ShaderDefine> defines = kernelDefines(setup_, layout, options_);
         SEROSA_ASSIGN(stepProgram_,
-                      gpu::Program::create(library, {"pass.vert", "solver_step.frag"}, defines));
+                      StepProgram::create(library, {"pass.vert", "solver_step.frag"}, defines, options_));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"pass.vert", "grasp.frag"}));
 
         for (std::size_t tool = 0; tool < setup_.tools.size(); ++tool) {
@@ -81,7 +81,7 @@ private:
         return {};
     }
 
-    void takeStep() {
+    void takeStep(bool last) {
         setTools();
         if (CellPass::needed(setup_.tissue)) {
             // The first tool's impulse blends into attachment 2, this pass's third column must not.
@@ -92,7 +92,7 @@ private:
         }
         setStepInputs(options_.useTexelFetch);
         stepTargets_[std::size_t(nextHalf())].bind(textures_.layout().width, textures_.layout().height);
-        stepProgram_.use();
+        stepProgram_.of(last).use();
         // Image loads are incoherent: what the last pass wrote as a render target must be visible first.
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT);

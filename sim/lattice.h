@@ -62,8 +62,9 @@ struct Lattice {
     std::int64_t neighbour(std::size_t node, int d) const;
     /// Share of a full node's mass: sum of its fills / (8 * 255).
     double massShare(std::size_t node) const;
-    /// How deep the node rests below the organ's surface, in spacings from -2 (outside) to 1, in steps of
-    /// 1/85. Without a surface (latticeFromCells) what the share of mass says of a plane along the grid.
+    /// How deep the node rests below the organ's surface as contact counts it (sim/node_depths.h), in
+    /// spacings from -2 (outside) to 1, in steps of 1/85. Without a surface (latticeFromCells) what the share
+    /// of mass says of a plane along the grid.
     double restDepth(std::size_t node) const { return depthSteps[node] / 85.0 - 2; }
     /// Spring weight w in direction d (k_ij = w k): edges sum f/4 over the cells that hold both ends,
     /// diagonals f/2. Of the shape alone, as of one material: sim/tissue_field.h knows the materials.

@@ -1,4 +1,4 @@
-// What a scene says beyond its file: regions, number of frames, the scene made of a model alone, and rules
+// What a scene says beyond its file: number of frames, the scene made of a model alone, and rules
 // over all.
 
 #include "sim/scene.h"
@@ -13,18 +13,6 @@ namespace serosa::sim {
 
 namespace {
 constexpr double kMostFrames = 1e6;
-}
-
-bool FixedRegion::contains(const glm::dvec3& world) const {
-    switch (shape) {
-    case Shape::halfSpace:
-        return below ? world[axis] < *below : world[axis] > *above;
-    case Shape::box:
-        return glm::all(glm::greaterThanEqual(world, lowest)) && glm::all(glm::lessThanEqual(world, highest));
-    case Shape::sphere:
-        return glm::distance(world, centre) <= radius;
-    }
-    return false;
 }
 
 std::string organFileName(const Organ& organ) {
@@ -48,7 +36,8 @@ std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
     const double end = (scene.frames() + 0.5) / scene.frameRate;
     const Output& output = scene.output;
     for (const auto& [key, times] :
-         {std::pair{"surfaces_at", &output.surfacesAt}, std::pair{"sheet_at", &output.sheetAt}})
+         {std::pair{"surfaces_at", &output.surfacesAt}, std::pair{"snapshots_at", &output.snapshotsAt},
+          std::pair{"displacements_at", &output.displacementsAt}, std::pair{"sheet_at", &output.sheetAt}})
         for (const double time : *times)
             if (time > end)
                 return SceneProblem{"output", key,

@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "sim/cut_motion.h"
 #include "sim/material.h"
+#include "sim/region.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
 #include "sim/up_axis.h"
@@ -18,17 +19,6 @@
 #include <vector>
 
 namespace serosa::sim {
-
-struct FixedRegion {
-    enum class Shape { halfSpace, box, sphere } shape = Shape::halfSpace;
-    int line = 0;                       // of the scene file, for messages; 0: none
-    int axis = 1;                       // half-space: 0 x, 1 y, 2 z (`axis = "y"`)
-    std::optional<double> below, above; // half-space: m; exactly one
-    glm::dvec3 lowest{0}, highest{0};   // box: `min`, `max`, m
-    glm::dvec3 centre{0};               // sphere, m
-    double radius = 0;                  // sphere, m
-    bool contains(const glm::dvec3& world) const;
-};
 
 /// Procedural pose instead of simulation (MS05 figure 6): all nodes follow a bend about the z axis whose
 /// curvature grows from 0 to 1 / `bendRadius` over the run: x is the arc length along the bent centre line,
@@ -45,14 +35,18 @@ struct Organ {
     UpAxis upAxis = UpAxis::y;   // of the file
     bool repair = false;         // mend what sim/mesh_repair.h names
     std::size_t nodes = 20000;
-    double spacing = 0; // m; 0: by nodes
-    Tissue tissue;
-    std::vector<FixedRegion> fixed;
+    double spacing = 0;                  // m; 0: by nodes
+    Tissue tissue;                       // with its materials
+    std::vector<MaterialRegion> regions; // of these; a later one wins
+    std::vector<Region> fixed;
     double fixedLowestShare =
         0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
 };
+
+/// Name of `[organ.tissue]` among an organ's materials.
+constexpr const char* kTissueName = "tissue";
 
 /// More lattices than this are no scene, but a mistake.
 constexpr std::size_t kMostOrgans = 8;
@@ -79,7 +73,7 @@ struct Light {
 };
 
 enum class Mapping { oneToOne, triangle, curvature };
-enum class SurfaceColour { tissue, dynamicNormal };
+enum class SurfaceColour { tissue, dynamicNormal, material };
 struct Look {
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
@@ -88,9 +82,12 @@ struct Look {
     glm::dvec3 sectionNormal{0, 0, 1};                  // this points, is cut away from the picture
 };
 
+enum class ImageFormat { nrrd, mha };
 struct Output {
-    int width = 960, height = 960;       // pixels: size = [960, 960]
-    std::vector<double> surfacesAt;      // s
+    int width = 960, height = 960;                    // pixels: size = [960, 960]
+    std::vector<double> surfacesAt;                   // s
+    std::vector<double> snapshotsAt, displacementsAt; // s
+    ImageFormat displacementFormat = ImageFormat::nrrd;
     int frameEvery = 1;                  // every how many frames a picture is written
     int sheetColumns = 4, sheetRows = 3; // contact sheet
     std::vector<double> sheetAt;         // s; empty: evenly spread
@@ -114,10 +111,11 @@ struct Scene {
 
 /// One value of a scene, for `serosa scene explain`.
 struct SceneValue {
-    std::string path;    // "organ[0].tissue.young"
-    std::string written; // as in the file; empty where it is the default
-    std::string value;   // in SI units, with the unit
-    int line = 0;        // 0: the default
+    std::string path;       // "organ[0].tissue.young"
+    std::string written;    // as in the file; empty where it is the default
+    std::string value;      // in SI units, with the unit
+    int line = 0;           // 0: the default,
+    bool inherited = false; // or what another table says
 };
 
 /// Reads and checks a scene file. Errors carry file:line:column: syntax, unknown key (with the nearest known

@@ -7,7 +7,9 @@
 #include "sim/scene.h"
 
 #include <iomanip>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace serosa::sim {
@@ -36,7 +38,51 @@ SceneKey word(const char* table, const char* name, std::vector<std::string> word
 using Kind = ValueKind;
 using Dim = Dimension;
 
-std::vector<SceneKey> makeKeys() {
+void add(std::vector<SceneKey>& keys, std::vector<SceneKey> more) {
+    keys.insert(keys.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+/// What a material is: of `[organ.tissue]`, with defaults, and of `[[organ.material]]`, without: there the
+/// tissue is the default.
+std::vector<SceneKey> lawKeys(const char* table, bool defaults) {
+    const auto fallback = [defaults](const char* text) { return defaults ? text : ""; };
+    return {
+        quantity(table, "young", Dim::pressure, {0, 1e12, true}, fallback("\"5 kPa\""),
+                 "Young's modulus (with fibres: across them); not beside `curve`"),
+        plain(table, "curve", Kind::tables, kAny, "",
+              "nominal stress over strain under tension, from (0, 0) through these points; the first gives "
+              "Young's modulus; both rise; 9 points at most, 8 beside a strain limit"),
+        plain(table, "strain_limit", Kind::number, kNotNegative, fallback("0"),
+              "from this strain on ten times as stiff as just before; beyond the curve's last point but one; "
+              "0: none"),
+        plain(table, "poisson", Kind::number, {-1, 0.5}, fallback("0.25"),
+              "Poisson's ratio, 0.25 to 0.495; above 0.25 a step costs more and is shorter (0.49: a "
+              "quarter)"),
+        quantity(table, "density", Dim::density, {0, 1e6, true}, fallback("\"1000 kg/m3\""),
+                 "mass of a volume"),
+        quantity(table, "damping_time", Dim::time, kNotNegative, fallback("\"0.5 ms\""),
+                 "damping along springs: c = damping_time * k"),
+        plain(table, "fibre", Kind::number3, kAny, "",
+              "direction of fibres, any length; needs `fibre_young`"),
+        quantity(table, "fibre_young", Dim::pressure, {0, 1e12, true}, "",
+                 "Young's modulus along the fibres, not below the one across; equal: no fibres"),
+    };
+}
+
+/// Where a region lies.
+std::vector<SceneKey> placeKeys(const char* table) {
+    return {
+        word(table, "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),
+        quantity(table, "below", Dim::length, kAny, "", "half-space: where the coordinate is less"),
+        quantity(table, "above", Dim::length, kAny, "", "half-space: where the coordinate is greater"),
+        quantity(table, "min", Dim::length, kAny, "", "box: lowest corner", Kind::quantity3),
+        quantity(table, "max", Dim::length, kAny, "", "box: highest corner", Kind::quantity3),
+        quantity(table, "centre", Dim::length, kAny, "", "sphere: centre", Kind::quantity3),
+        quantity(table, "radius", Dim::length, kPositive, "", "sphere: radius"),
+    };
+}
+
+std::vector<SceneKey> generalKeys() {
     return {
         plain("", "schema", Kind::integer, {1, 1}, nullptr, "version of this format"),
         quantity("", "frame_rate", Dim::frequency, {0.001, 1e6}, "\"60 Hz\"",
@@ -71,40 +117,64 @@ std::vector<SceneKey> makeKeys() {
             "organ", "tear_strain", Kind::number, kPositive, "",
             "springs longer than (1 + this) times their rest length tear, frame by frame; not beside a pose"),
         plain("organ", "tissue", Kind::table, kAny, "", "what it is made of"),
+        plain("organ", "material", Kind::tables, kAny, "",
+              "further materials, at most 15 (see Materials above); not beside a pose"),
+        plain("organ", "region", Kind::tables, kAny, "", "cells of these materials; a later region wins"),
         plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
         plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
+    };
+}
 
-        quantity("organ.tissue", "young", Dim::pressure, {0, 1e12, true}, "\"5 kPa\"", "Young's modulus"),
-        plain("organ.tissue", "poisson", Kind::number, {-1, 0.5}, "0.25",
-              "Poisson's ratio, 0.25 to 0.495; above 0.25 a step costs more and is shorter (0.49: a "
-              "quarter)"),
-        quantity("organ.tissue", "density", Dim::density, {0, 1e6, true}, "\"1000 kg/m3\"",
-                 "mass of a volume"),
-        quantity("organ.tissue", "damping_time", Dim::time, kNotNegative, "\"0.5 ms\"",
-                 "damping along springs: c = damping_time * k"),
-        quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
-                 "drag on a node's velocity"),
-        plain("organ.tissue", "recovery", Kind::boolean, kAny, "false",
-              "cells that are pressed below 40% of their volume, or turned inside out, push back: a "
-              "deep push leaves no folds behind; costs a pass"),
+/// Below an organ's own keys.
+std::vector<SceneKey> organKeys() {
+    std::vector<SceneKey> keys = lawKeys("organ.tissue", true);
+    add(keys,
+        {
+            quantity("organ.tissue", "air_drag", Dim::rate, kNotNegative, "\"0 1/s\"",
+                     "drag on a node's velocity"),
+            plain("organ.tissue", "recovery", Kind::boolean, kAny, "false",
+                  "cells that are pressed below 40% of their volume, or turned inside out, push back: a "
+                  "deep push leaves no folds behind; costs a pass"),
+        });
+    add(keys, {plain("organ.material", "name", Kind::text, kAny, nullptr,
+                     "what regions and reports call it; \"tissue\" is the name of `[organ.tissue]`")});
+    add(keys, lawKeys("organ.material", false));
+    add(keys, {plain("curve", "strain", Kind::number, kPositive, nullptr, "extension over length at rest"),
+               quantity("curve", "stress", Dim::pressure, {0, 1e12, true}, nullptr,
+                        "force over the area at rest")});
+    add(keys, {plain("organ.region", "material", Kind::text, kAny, nullptr,
+                     "name of an `[[organ.material]]`, or \"tissue\""),
+               word("organ.region", "shape", {"half-space", "box", "sphere", "layer", "painted"}, nullptr,
+                    "kind of region; the first three hold a cell by its centre")});
+    add(keys, placeKeys("organ.region"));
+    add(keys,
+        {quantity("organ.region", "depth", Dim::length, kPositive, "",
+                  "layer: cells whose centre lies at most so deep below the surface, cavities' walls "
+                  "included; painted: how deep the paint reaches, without it to the middle"),
+         quantity("organ.region", "from", Dim::length, kNotNegative, "\"0 mm\"",
+                  "layer, painted: only deeper than this; at 0 the outermost cells always belong"),
+         plain("organ.region", "colour", Kind::integer3, {0, 255}, "",
+               "painted: sRGB of the model's vertices; cells whose nearest point of the surface has it"),
+         plain("organ.region", "tolerance", Kind::integer, {0, 255}, "8",
+               "painted: each channel of the colour may differ by so much")});
+    add(keys,
+        {word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region")});
+    add(keys, placeKeys("organ.fixed"));
+    add(keys,
+        {
+            plain("organ.fixed", "share", Kind::number, kShare, "",
+                  "lowest: this share of the organ's height, from below"),
 
-        word("organ.fixed", "shape", {"half-space", "box", "sphere", "lowest"}, nullptr, "kind of region"),
-        word("organ.fixed", "axis", {"x", "y", "z"}, "\"y\"", "half-space: the axis that it cuts"),
-        quantity("organ.fixed", "below", Dim::length, kAny, "",
-                 "half-space: fixed where the coordinate is less"),
-        quantity("organ.fixed", "above", Dim::length, kAny, "",
-                 "half-space: fixed where the coordinate is greater"),
-        quantity("organ.fixed", "min", Dim::length, kAny, "", "box: lowest corner", Kind::quantity3),
-        quantity("organ.fixed", "max", Dim::length, kAny, "", "box: highest corner", Kind::quantity3),
-        quantity("organ.fixed", "centre", Dim::length, kAny, "", "sphere: centre", Kind::quantity3),
-        quantity("organ.fixed", "radius", Dim::length, kPositive, "", "sphere: radius"),
-        plain("organ.fixed", "share", Kind::number, kShare, "",
-              "lowest: this share of the organ's height, from below"),
+            quantity(
+                "organ.pose", "bend_radius", Dim::length, kPositive, nullptr,
+                "all nodes follow a bend about the z axis, from straight to this radius over the run; the "
+                "ends go down"),
+        });
+    return keys;
+}
 
-        quantity("organ.pose", "bend_radius", Dim::length, kPositive, nullptr,
-                 "all nodes follow a bend about the z axis, from straight to this radius over the run; the "
-                 "ends go down"),
-
+std::vector<SceneKey> otherKeys() {
+    return {
         plain("tool", "name", Kind::text, kAny, "", "what messages call it"),
         word("tool", "kind", {"sphere"}, "\"sphere\"", "its shape"),
         quantity("tool", "radius", Dim::length, kPositive, "\"5 mm\"", "radius of the sphere"),
@@ -148,7 +218,8 @@ std::vector<SceneKey> makeKeys() {
 
         word("look", "mapping", {"one-to-one", "triangle", "curvature"}, "\"curvature\"",
              "how the surface follows the lattice (MS05 3.2, 3.3)"),
-        word("look", "colour", {"tissue", "dynamic-normal"}, "\"tissue\"", "what the surface is coloured by"),
+        word("look", "colour", {"tissue", "dynamic-normal", "material"}, "\"tissue\"",
+             "what the surface is coloured by; material: by the material of the cell at each vertex"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw the tools"),
@@ -162,12 +233,28 @@ std::vector<SceneKey> makeKeys() {
               "width and height of pictures in pixels"),
         quantity("output", "surfaces_at", Dim::time, kNotNegative, "[]",
                  "times at which deformed surfaces are written", Kind::quantityList),
+        quantity("output", "snapshots_at", Dim::time, kNotNegative, "[]",
+                 "times at which the whole state is written, to go on from (docs/snapshots.md)",
+                 Kind::quantityList),
+        quantity("output", "displacements_at", Dim::time, kNotNegative, "[]",
+                 "times at which each node's displacement is written, as a vector image and as points "
+                 "(docs/snapshots.md)",
+                 Kind::quantityList),
+        word("output", "displacement_format", {"nrrd", "mha"}, "\"nrrd\"",
+             "of the vector images: NRRD or MetaImage"),
         plain("output", "frame_every", Kind::integer, {1, 1e6}, "1", "a picture every so many frames"),
         plain("output", "sheet_columns", Kind::integer, {1, 16}, "4", "columns of the contact sheet"),
         plain("output", "sheet_rows", Kind::integer, {1, 16}, "3", "rows of the contact sheet"),
         quantity("output", "sheet_at", Dim::time, kNotNegative, "[]",
                  "times on the contact sheet; empty: evenly spread", Kind::quantityList),
     };
+}
+
+std::vector<SceneKey> makeKeys() {
+    std::vector<SceneKey> keys = generalKeys();
+    add(keys, organKeys());
+    add(keys, otherKeys());
+    return keys;
 }
 
 std::string quantityName(Dimension dimension) {
@@ -180,12 +267,15 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const bool repeated = table == "organ" || table == "organ.fixed" || table == "tool" || table == "cut";
+    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region",
+                                         "organ.fixed", "tool",           "cut"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
     if (table == "cut.keys")
         return "`keys` of `[[cut]]`, each `{ t = ..., at = ..., end = ... }`";
-    return repeated ? "`[[" + table + "]]`" : "`[" + table + "]`";
+    if (table == "curve")
+        return "`curve` of `[organ.tissue]` and `[[organ.material]]`, each `{ strain = ..., stress = ... }`";
+    return repeated.contains(table) ? "`[[" + table + "]]`" : "`[" + table + "]`";
 }
 
 } // namespace
@@ -262,6 +352,9 @@ std::string describeValue(const SceneKey& key) {
     case Kind::integer2:
         text = "array of 2 integers";
         break;
+    case Kind::integer3:
+        text = "array of 3 integers";
+        break;
     case Kind::table:
         return "table";
     case Kind::tables:
@@ -294,6 +387,9 @@ std::string sceneReference() {
 }
 
 static_assert(SRS_MAX_TOOLS == 4, "the meaning of [[tool]] names the limit");
+static_assert(SRS_MAX_MATERIALS == 16, "the meaning of [[organ.material]] names the limit");
+static_assert(SRS_CURVE_BREAKS == 8 && SRS_LIMIT_STIFFENING == 10.0,
+              "the meanings of curve and strain_limit name the limits");
 static_assert(kMostOrgans == 8, "the meaning of [[organ]] names the limit");
 
 } // namespace serosa::sim

@@ -20,6 +20,7 @@ enum class ValueKind {
     quantityList,
     number3,
     integer2,
+    integer3,
     table,
     tables
 };

@@ -2,6 +2,7 @@
 // follow each table.
 
 #include "shaders/shared_constants.h"
+#include "sim/scene_reader_organ.h"
 #include "sim/scene_table.h"
 
 #include <algorithm>
@@ -37,137 +38,6 @@ Result<std::string> readText(const fs::path& file) {
     if (stream.bad() || text.size() != size)
         return Error{file.string() + ": cannot be read"};
     return text;
-}
-
-Status readModel(const SceneTable& table, const fs::path& folder, Organ& organ) {
-    std::string model, unit = "mm"; // both required
-    SEROSA_TRY(table.read("model", model));
-    organ.model = fs::path(model).is_absolute() ? fs::path(model) : folder / model;
-    organ.modelLine = table.lineOf("model");
-    std::error_code code;
-    if (!fs::exists(organ.model, code))
-        return table.errorAt("model", "no such file: " + organ.model.string());
-    if (!fs::is_regular_file(organ.model, code))
-        return table.errorAt("model", organ.model.string() + " is not a file");
-    enum class Unit { first } word = Unit::first;
-    SEROSA_TRY(table.readWord("length_unit", word));
-    SEROSA_ASSIGN(organ.lengthUnit,
-                  parseLengthUnit(findSceneKey("organ", "length_unit")->words[std::size_t(word)]));
-    return {};
-}
-
-Status readTissue(const SceneTable& table, Tissue& tissue) {
-    SEROSA_TRY(table.checkKeys());
-    SEROSA_TRY(table.read("young", tissue.young));
-    SEROSA_TRY(table.read("poisson", tissue.poisson));
-    if (tissue.poisson < 0.25)
-        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
-                                            ", at least 0.25 is possible: the springs give 0.25, and the "
-                                            "volumetric term can only raise it");
-    if (tissue.poisson > 0.495)
-        return table.errorAt("poisson", "is " + formatNumber(tissue.poisson) +
-                                            ", at most 0.495 is possible: at 0.5 nothing can be pressed "
-                                            "together, and the time step vanishes");
-    SEROSA_TRY(table.read("density", tissue.density));
-    SEROSA_TRY(table.read("damping_time", tissue.dampingTime));
-    SEROSA_TRY(table.read("air_drag", tissue.airDrag));
-    SEROSA_TRY(table.read("recovery", tissue.recovery));
-    return {};
-}
-
-/// The keys that a shape of region takes, required first; others are refused.
-struct ShapeKeys {
-    std::vector<const char*> required, optional;
-};
-const ShapeKeys kShapeKeys[] = {
-    {{}, {"axis", "below", "above"}}, {{"min", "max"}, {}}, {{"centre", "radius"}, {}}, {{"share"}, {}}};
-
-Status readFixed(const SceneTable& table, Organ& organ) {
-    SEROSA_TRY(table.checkKeys());
-    enum class Shape { halfSpace, box, sphere, lowest } shape = Shape::halfSpace;
-    SEROSA_TRY(table.readWord("shape", shape));
-    const std::string shapeName = findSceneKey("organ.fixed", "shape")->words[std::size_t(shape)];
-    const ShapeKeys& allowed = kShapeKeys[int(shape)];
-    for (const std::string& name : keyNames("organ.fixed")) {
-        const auto in = [&name](const std::vector<const char*>& list) {
-            return std::any_of(list.begin(), list.end(), [&name](const char* key) { return name == key; });
-        };
-        if (in(allowed.required) && !table.has(name.c_str()))
-            return table.errorAt("shape", "a " + shapeName + " needs '" + name + "'");
-        if (name != "shape" && table.has(name.c_str()) && !in(allowed.required) && !in(allowed.optional))
-            return table.errorAt(name.c_str(), "does not belong to shape \"" + shapeName + "\"");
-    }
-
-    FixedRegion region;
-    region.line = table.lineOf("shape");
-    switch (shape) {
-    case Shape::lowest:
-        if (organ.fixedLowestShare > 0)
-            return table.errorAt("shape", "a second region \"lowest\" of one organ: keep one");
-        return table.read("share", organ.fixedLowestShare);
-    case Shape::halfSpace: {
-        region.shape = FixedRegion::Shape::halfSpace;
-        enum class Axis { x, y, z } axis = Axis::y;
-        SEROSA_TRY(table.readWord("axis", axis));
-        region.axis = int(axis);
-        SEROSA_TRY(table.read("below", region.below));
-        SEROSA_TRY(table.read("above", region.above));
-        if (region.below.has_value() == region.above.has_value())
-            return table.errorAt("shape", "a half-space needs 'below' or 'above', not " +
-                                              std::string(region.below ? "both" : "neither"));
-        break;
-    }
-    case Shape::box:
-        region.shape = FixedRegion::Shape::box;
-        SEROSA_TRY(table.read("min", region.lowest));
-        SEROSA_TRY(table.read("max", region.highest));
-        if (!glm::all(glm::lessThan(region.lowest, region.highest)))
-            return table.errorAt("max", "is not greater than 'min' along every axis");
-        break;
-    case Shape::sphere:
-        region.shape = FixedRegion::Shape::sphere;
-        SEROSA_TRY(table.read("centre", region.centre));
-        SEROSA_TRY(table.read("radius", region.radius));
-        break;
-    }
-    organ.fixed.push_back(region);
-    return {};
-}
-
-Status readOrgan(const SceneSource& source, const toml::table& content, const std::string& path,
-                 const fs::path& folder, Organ& organ) {
-    const SceneTable table(source, "organ", path, &content);
-    SEROSA_TRY(table.checkKeys());
-    SEROSA_TRY(table.read("name", organ.name));
-    SEROSA_TRY(readModel(table, folder, organ));
-    SEROSA_TRY(table.readWord("up_axis", organ.upAxis));
-    SEROSA_TRY(table.read("repair", organ.repair));
-    if (table.has("nodes") && table.has("spacing"))
-        return table.errorAt("spacing", "stands beside 'nodes': keep one of the two");
-    if (table.has("spacing"))
-        SEROSA_TRY(table.read("spacing", organ.spacing));
-    else
-        SEROSA_TRY(table.read("nodes", organ.nodes));
-
-    std::optional<double> tearStrain;
-    SEROSA_TRY(table.read("tear_strain", tearStrain));
-    organ.tearStrain = tearStrain.value_or(0);
-    if (table.has("tear_strain") && table.has("pose"))
-        return table.errorAt("tear_strain", "has no effect beside 'pose': keep one of the two");
-    SEROSA_ASSIGN(const toml::table* tissue, table.table("tissue"));
-    SEROSA_TRY(readTissue({source, "organ.tissue", path + ".tissue", tissue}, organ.tissue));
-    SEROSA_ASSIGN(const auto regions, table.tables("fixed"));
-    for (std::size_t i = 0; i < regions.size(); ++i)
-        SEROSA_TRY(readFixed({source, "organ.fixed", path + ".fixed[" + std::to_string(i) + "]", regions[i]},
-                             organ));
-    SEROSA_ASSIGN(const toml::table* pose, table.table("pose"));
-    if (pose) {
-        const SceneTable poseTable(source, "organ.pose", path + ".pose", pose);
-        SEROSA_TRY(poseTable.checkKeys());
-        organ.pose.emplace();
-        SEROSA_TRY(poseTable.read("bend_radius", organ.pose->bendRadius));
-    }
-    return {};
 }
 
 Status readTool(const SceneSource& source, const toml::table& content, std::size_t index, Tool& tool) {
@@ -288,6 +158,11 @@ Status readOutput(const SceneTable& table, Scene& scene) {
     output.width = size.x;
     output.height = size.y;
     SEROSA_TRY(table.read("surfaces_at", output.surfacesAt));
+    SEROSA_TRY(table.read("snapshots_at", output.snapshotsAt));
+    SEROSA_TRY(table.read("displacements_at", output.displacementsAt));
+    SEROSA_TRY(table.readWord("displacement_format", output.displacementFormat));
+    if (output.displacementFormat != ImageFormat::nrrd && output.displacementsAt.empty())
+        return table.errorAt("displacement_format", "has no effect without 'displacements_at': remove it");
     SEROSA_TRY(table.read("frame_every", output.frameEvery));
     SEROSA_TRY(table.read("sheet_columns", output.sheetColumns));
     SEROSA_TRY(table.read("sheet_rows", output.sheetRows));

@@ -70,8 +70,9 @@ Error sceneError(const std::string& file, const toml::source_position& position,
 }
 
 SceneTable::SceneTable(const SceneSource& source, std::string table, std::string path,
-                       const toml::table* content)
-    : source_(source), table_(std::move(table)), path_(std::move(path)), content_(content) {}
+                       const toml::table* content, bool inherits)
+    : source_(source), table_(std::move(table)), path_(std::move(path)), content_(content),
+      inherits_(inherits) {}
 
 const SceneKey& SceneTable::spec(const char* key) const {
     const SceneKey* found = findSceneKey(table_, key);
@@ -180,7 +181,7 @@ void SceneTable::note(const char* key, const std::string& value) const {
         given->visit([&text](const auto& n) { text << toml::toml_formatter{toml::table{{"v", n}}}; });
         written = plainToml(text.str().substr(4)); // after "v = "
     }
-    source_.explained->push_back({pathOf(key), written, value, lineOf(key)});
+    source_.explained->push_back({pathOf(key), written, value, lineOf(key), inherits_ && !node(key)});
 }
 
 Status SceneTable::read(const char* key, double& value) const {
@@ -258,17 +259,30 @@ Status SceneTable::read(const char* key, std::optional<glm::dvec3>& value) const
     return {};
 }
 
-Status SceneTable::read(const char* key, glm::ivec2& value) const {
+template <class Vector>
+Status SceneTable::readIntegers(const char* key, Vector& value) const {
+    constexpr int count = Vector::length();
     if (const toml::node* given = node(key)) {
-        SEROSA_TRY(numbersOf(spec(key), *given, 2));
-        for (int i = 0; i < 2; ++i) {
+        SEROSA_TRY(numbersOf(spec(key), *given, count));
+        for (int i = 0; i < count; ++i) {
             SEROSA_ASSIGN(const std::int64_t integer,
                           integerOf(spec(key), *given->as_array()->get(std::size_t(i))));
             value[i] = int(integer);
         }
     }
-    note(key, formatted(spec(key), std::vector<double>{double(value.x), double(value.y)}));
+    std::vector<double> list;
+    for (int i = 0; i < count; ++i)
+        list.push_back(value[i]);
+    note(key, formatted(spec(key), list));
     return {};
+}
+
+Status SceneTable::read(const char* key, glm::ivec2& value) const {
+    return readIntegers(key, value);
+}
+
+Status SceneTable::read(const char* key, glm::ivec3& value) const {
+    return readIntegers(key, value);
 }
 
 Status SceneTable::read(const char* key, std::vector<double>& value) const {
@@ -310,7 +324,8 @@ Result<std::vector<const toml::table*>> SceneTable::tables(const char* key) cons
     if (!given)
         return list;
     const std::string expected =
-        table_ == "tool"
+        std::string(key) == "curve" ? "an array of { strain = ..., stress = ... }"
+        : table_ == "tool"
             ? "an array of { t = ..., at = ... }"
             : "tables: write [[" + (table_.empty() ? key : table_ + "." + key) + "]], once for each";
     if (!given->is_array())

@@ -25,7 +25,9 @@ class SceneTable {
 public:
     /// \param table its name in scene_keys.h. \param path its name in messages: "tool[1]".
     /// \param content null: the file has no such table, and every key takes its default.
-    SceneTable(const SceneSource& source, std::string table, std::string path, const toml::table* content);
+    /// \param inherits what is absent is another table's value, not a default.
+    SceneTable(const SceneSource& source, std::string table, std::string path, const toml::table* content,
+               bool inherits = false);
 
     /// Unknown keys and missing required ones.
     Status checkKeys() const;
@@ -45,6 +47,7 @@ public:
     Status read(const char* key, glm::dvec3& value) const;
     Status read(const char* key, std::optional<glm::dvec3>& value) const;
     Status read(const char* key, glm::ivec2& value) const;
+    Status read(const char* key, glm::ivec3& value) const;
     Status read(const char* key, std::vector<double>& value) const;
     /// One of the key's words; Enum counts them from 0 in the same order.
     template <class Enum>
@@ -71,11 +74,14 @@ private:
                                           std::optional<std::size_t> count) const;
     Result<std::int64_t> integerOf(const SceneKey& key, const toml::node& node) const;
     Status readWordIndex(const char* key, int& index) const;
+    template <class Vector>
+    Status readIntegers(const char* key, Vector& value) const;
     void note(const char* key, const std::string& value) const;
 
     const SceneSource& source_;
     std::string table_, path_;
     const toml::table* content_;
+    bool inherits_;
 };
 
 /// "file:line:column: message"

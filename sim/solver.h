@@ -37,6 +37,14 @@ namespace serosa::sim {
 
 class StateTextures; // sim/state_textures.h
 
+/// Connection bits of one node that a stroke cleared.
+struct ClearedBits {
+    std::uint32_t node = 0, bits = 0;
+    friend bool operator==(const ClearedBits&, const ClearedBits&) = default;
+};
+/// What one stroke (with the parts that continue it) cleared: nodes ascending, bits not 0.
+using CutLayer = std::vector<ClearedBits>;
+
 /// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its
 /// lifetime.
 struct SolverSetup {
@@ -73,6 +81,10 @@ public:
     virtual bool undoCut();
     /// Strokes so far can no longer be undone: after a state from elsewhere was set.
     virtual void forgetCuts();
+    /// What undoCut() gives back, stroke by stroke, oldest first; reads back (stalls).
+    virtual std::vector<CutLayer> cutLayers() const;
+    /// Replaces it, after the state that it belongs to was set. Errors: as cut.
+    virtual Status setCutLayers(const std::vector<CutLayer>& layers);
     /// Labels of the pieces (sim/pieces.h), one a node; reads back. Errors: as cut.
     virtual Result<std::vector<std::uint32_t>> pieces() const;
     virtual const Lattice& lattice() const = 0;
@@ -99,8 +111,10 @@ std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup);
 
 /// Of shaders/solver_kernel.glsl, whatever runs it.
 struct KernelOptions {
-    int layout = -1;            // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
-    bool normals = true;        // write eq. 3 into alpha (benchmarks switch it off)
+    int layout = -1;               // SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS, or -1: by how full the grid is
+    bool normals = true;           // write eq. 3 into alpha (benchmarks switch it off)
+    bool normalsEveryStep = false; // as CpuOptions: else the last step of an advance() alone writes them
+    bool fills = true;             // false (benchmarks): every cell counts as full
     bool printedForm = true;    // eq. 2, with the sum of unit vectors shared; false: eq. 1, spring by spring
     bool useTexelFetch = false; // texelFetch instead of imageLoad
 };
@@ -132,8 +146,8 @@ struct StableStep {
     double formulaRate2 = 0;  // of the endless lattice of material 0: (12 + 4 bulkShare) k/m
     double bound = 0;         // s: stable below, damping included
     double margin = 0;        // share of the bound that is used
-    int stepsPerFrame = 0;
-    double timeStep = 0; // s: frame time / stepsPerFrame
+    int stepsPerFrame = 0;    // 1e9 at most
+    double timeStep = 0;      // s: frame time / stepsPerFrame
 };
 /// Largest stable explicit step for a frame of `frameTime` seconds.
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime);

@@ -39,6 +39,8 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         defines.push_back({"SRS_STIFFENING", "1"});
     if (options.normals)
         defines.push_back({"SRS_NORMALS", "1"});
+    if (!options.fills)
+        defines.push_back({"SRS_FULL_CELLS", "1"});
     if (options.useTexelFetch)
         defines.push_back({"SRS_TEXEL_FETCH", "1"});
     return defines;

@@ -28,6 +28,7 @@ constexpr double kEndlessLattice = 12, kEndlessLatticeBulk = 4; // omega^2 / (k/
 // step, at sqrt(2) 4:1; an undamped ball with random velocities blows up at 0.85 of the bound. 0.7 keeps
 // every mode below both.
 constexpr double kMargin = 0.7;
+constexpr double kMostSteps = 1e9; // a frame; more cannot be counted
 // The iteration approaches from below.
 constexpr double kIterationSlack = 1.02;
 constexpr std::size_t kIterations = 80;
@@ -216,11 +217,12 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     // Increments lag half a step, so damping lowers the bound: dt^2 omega^2 + 2 dt delta < 4, delta the
     // largest rate of M^-1 C (tau omega_s^2 of the springs' share where tau is one for all). The stiffest
     // modes of both are nearly the same (see above), so the sum of the two largest rates is hardly more than
-    // the largest of the sum.
-    const double damped = step.dampingRate / step.stiffestRate2;
+    // the largest of the sum. Air drag acts on the same lagging increments, equally in every mode.
+    const double damped = (step.dampingRate + tissue.airDrag) / step.stiffestRate2;
     step.bound = std::sqrt(damped * damped + 4 / step.stiffestRate2) - damped;
     step.margin = kMargin;
-    step.stepsPerFrame = int(std::ceil(frameTime / (kMargin * step.bound)));
+    const double steps = std::ceil(frameTime / (kMargin * step.bound));
+    step.stepsPerFrame = steps < kMostSteps ? int(steps) : int(kMostSteps);
     step.timeStep = frameTime / step.stepsPerFrame;
     return step;
 }

@@ -12,15 +12,11 @@ void TextureSolver::setState(const LatticeState& state) {
 }
 
 void TextureSolver::setConstants() {
-    setKernelUniforms(stepProgram_, setup_);
-    setRowOffsets(stepProgram_);
-}
-
-void TextureSolver::setRowOffsets(gpu::Program& program) const {
-    if (textures_.layout().kind != SRS_LAYOUT_ROWS)
-        return;
-    program.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
-    program.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
+    stepProgram_.each([this](gpu::Program& program) { setKernelUniforms(program, setup_); });
+    if (textures_.layout().kind == SRS_LAYOUT_ROWS) {
+        stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
+        stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
+    }
 }
 
 void TextureSolver::setStepInputs(bool useTexelFetch) {
@@ -38,7 +34,7 @@ void TextureSolver::setTools() {
     if (setup_.tools.empty())
         return;
     const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-    setToolUniforms(stepProgram_, tools);
+    stepProgram_.each([&tools](gpu::Program& program) { setToolUniforms(program, tools); });
     for (std::size_t i = 0; i < tools.size(); ++i) {
         if (!tools[i].closes && !tools[i].opens)
             continue;

@@ -7,6 +7,7 @@
 #include "sim/cut_pass.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
+#include "sim/step_program.h"
 #include "sim/tool_motion.h"
 
 #include <cstdint>
@@ -23,6 +24,10 @@ public:
     Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
     bool undoCut() override { return cuts_.undo(textures_); }
     void forgetCuts() override { cuts_.forget(); }
+    std::vector<CutLayer> cutLayers() const override { return cuts_.layers(textures_); }
+    Status setCutLayers(const std::vector<CutLayer>& layers) override {
+        return cuts_.setLayers(textures_, layers);
+    }
     Result<std::vector<std::uint32_t>> pieces() const override { return cuts_.pieces(textures_); }
 
 protected:
@@ -30,8 +35,6 @@ protected:
 
     /// What stepProgram_ reads and does not change between steps; the program must be made.
     void setConstants();
-    /// The rows layout's neighbour offsets, for a program that addresses neighbours.
-    void setRowOffsets(gpu::Program& program) const;
     /// What stepProgram_ reads in the step to come. \param useTexelFetch as KernelOptions
     void setStepInputs(bool useTexelFetch);
     /// Tools of the step to come: their uniforms, and a grasp pass for each that takes hold or lets go.
@@ -43,7 +46,8 @@ protected:
 
     SolverSetup setup_;
     StateTextures textures_;
-    gpu::Program stepProgram_, graspProgram_;
+    StepProgram stepProgram_;
+    gpu::Program graspProgram_;
     CellPass cellPass_; // initialized where the tissue needs it
 
 private:

@@ -66,7 +66,8 @@ void VolumeTerm::addForces(const std::vector<glm::dvec3>& positions, std::vector
         const double volume = glm::dot(gradient[0], cofactor[0]);
         const double bulk = cellFactors.empty() ? cell.bulk : cell.bulk * cellFactors[cell.index];
         const double pressure =
-            bulk * (volume - 1) * softening(cofactor) - cell.recovery * std::max(0.0, SRS_COLLAPSED - volume);
+            (bulk * (volume - 1) - cell.recovery * std::max(0.0, SRS_COLLAPSED - volume)) *
+            softening(cofactor);
         for (int c = 0; c < 8; ++c)
             force[cell.corners[std::size_t(c)]] -= 0.25 * cell.fill * pressure * (cofactor * cornerSign(c));
     }
@@ -103,7 +104,7 @@ double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
     const glm::dmat3 cofactor = cofactors(gradient);
     const double volume = glm::dot(gradient[0], cofactor[0]);
     const double collapse = std::max(0.0, SRS_COLLAPSED - volume);
-    return 0.5 * (bulk * softening(cofactor) * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
+    return 0.5 * softening(cofactor) * (bulk * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
 }
 
 } // namespace serosa::sim

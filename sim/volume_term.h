@@ -5,7 +5,7 @@
 // A cell with fill f whose 24 connections are all there has, in lattice units and units of k h^2, with
 //   g_i = (+-1, +-1, +-1)/4 the corner gradients,  F = sum_i x_i g_i^T (the mean over the cell),  J = det F,
 // the energy f W(J) and the corner forces -f p cof(F) g_i,  p = W'(J):
-//   p = b (J - 1) q  -  r max(0, J0 - J),      b = bulkShare(),  r = kRecovery, J0 = kCollapsed.
+//   p = (b (J - 1)  -  r max(0, J0 - J)) q,      b = bulkShare(),  r = kRecovery, J0 = kCollapsed.
 // With several materials k is that of material 0, and b and r are MaterialShares::bulk and ::recovery of the
 // cell's own. A cell that has stiffened (sim/stiffening.h) has its factor on b.
 // Linearized this is the energy f b/2 (div u)^2 h^3, so lambda = (1 + b) k/h and mu = k/h stay as they were.
@@ -22,7 +22,9 @@
 // from below J0 = 0.4, that is 26% of linear strain on all sides, or 60% along one axis: nothing changes for
 // any smaller strain. r must exceed 2.5: flattened cells are pushed back together by springs with k h at J =
 // 0. It needs no smaller step: in a flattened cell the stiffest mode of the springs has fallen from 12 k/m
-// below what the term adds, 4 r = 12.
+// below what the term adds, 4 r = 12. That holds for flattened cells. One that is inside out and drawn out by
+// a factor s has J0 - J and |cof F| of the order s^3 and s^2: without q the push grew with s^5, and tissue
+// that was dragged about by a grasp blew up within a few steps.
 
 #include "sim/cell_volumes.h"
 #include "sim/lattice.h"

@@ -102,7 +102,7 @@ std::string manualPage(const Command& command, const std::string& version) {
     out << ".SH EXIT STATUS\n";
     const char* const kExitCodes[][2] = {
         {"0", "done"},
-        {"1", "a check failed, or the state of a run ran away"},
+        {"1", "a check failed, or the watchdog stopped an organ of a run"},
         {"2", "bad input: a file, a scene, an option, a folder, a full disk"},
         {"3", "a child program crashed or took too long"},
         {"4", "no baseline to compare with"},

@@ -134,6 +134,21 @@ std::vector<BadCommand> badCommands() {
          {"run", "bad.toml", "--out", "out"},
          scene + "[[organ.fixed]]\nshape = \"half-space\"\nbelow = \"4 m\"\n",
          "every node is fixed"},
+        {"RegionNowhere",
+         {"run", "bad.toml", "--out", "out"},
+         scene + "[[organ.material]]\nname = \"a\"\n[[organ.region]]\nmaterial = \"a\"\nshape = "
+                 "\"half-space\"\nabove = \"4 m\"\n",
+         "bad.toml:10: this region holds no cell"},
+        {"PaintWithoutColours",
+         {"scene", "check", "bad.toml"},
+         scene + "[[organ.material]]\nname = \"a\"\n[[organ.region]]\nmaterial = \"a\"\nshape = "
+                 "\"painted\"\ncolour = [1, 2, 3]\n",
+         "bad.toml:10: the model has no vertex colours"},
+        {"TooStiffMaterial",
+         {"scene", "check", "bad.toml"},
+         scene + "[[organ.material]]\nname = \"a\"\nyoung = \"1e12 Pa\"\n[[organ.region]]\nmaterial = "
+                 "\"a\"\nshape = \"layer\"\ndepth = \"1 mm\"\n",
+         "bad.toml:3: the tissue is so stiff"},
         {"Incompressible",
          {"scene", "check", "bad.toml"},
          scene + "[organ.tissue]\npoisson = 0.5\n",

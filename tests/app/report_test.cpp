@@ -267,7 +267,7 @@ TEST(Report, EscapesWhateverNamesHold) {
     Json json = summary();
     json["organ"]["name"] = json["organ"]["model"] = json["tools"][0]["name"] = hostile;
     json["gl"]["renderer"] = json["gl"]["vendor"] = hostile;
-    json["end"] = "not finite";
+    json["end"] = "organ stopped";
     const std::string text = runReport(json, {}, "node 7 of " + hostile);
     expectWellFormed(text);
     EXPECT_EQ(text.find("<script"), std::string::npos);
@@ -321,7 +321,7 @@ TEST(Report, LongRunsAreThinnedWithoutLosingAPeak) {
 
 TEST(Report, WhatIsNotFiniteMakesAGap) {
     Json json = summary();
-    json["end"] = "not finite";
+    json["end"] = "organ stopped";
     json["energies"][5]["elastic_J"] = kNan;
     json["energies"][6]["elastic_J"] = nullptr; // as it comes back from the file
     json["energies"][8]["elastic_J"] = std::numeric_limits<double>::infinity();

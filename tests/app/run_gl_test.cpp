@@ -96,6 +96,47 @@ TEST_F(GlRun, DocumentsEverySummaryKey) {
         }
     };
     check(summary("a"));
+    for (const char* key :
+         {"curve", "strain", "stress_Pa", "strain_limit", "fibre", "fibre_young_Pa"}) // of some
+        EXPECT_NE(document.find("`" + std::string(key) + "`"), std::string::npos) << key;
+}
+
+// Nothing is fixed, under gravity, without a floor: allowed, and said once. Its materials add up to the ball.
+TEST_F(GlRun, SaysWhatTheLatticeMadeOfItsMaterials) {
+    folder_.write("ball.toml",
+                  "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\n"
+                  "[organ.tissue]\ndensity = \"1000 kg/m3\"\n"
+                  "[[organ.material]]\nname = \"shell\"\ndensity = \"1100 kg/m3\"\n"
+                  "curve = [{ strain = 0.1, stress = \"1 kPa\" }, { strain = 0.2, stress = \"3 kPa\" }]\n"
+                  "[[organ.region]]\nmaterial = \"shell\"\nshape = \"layer\"\ndepth = \"1 mm\"\n"
+                  "[look]\ncolour = \"material\"\n[output]\nsize = [64, 48]\n");
+    const ChildResult result = run("a", {"--solver", "reference"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const auto times = [&result](const std::string& text) {
+        std::size_t count = 0;
+        for (std::size_t at = result.out.find(text); at != std::string::npos;
+             at = result.out.find(text, at + 1))
+            ++count;
+        return count;
+    };
+    EXPECT_EQ(times("is fixed, and there is no floor: it falls"), 1u) << result.out;
+    EXPECT_EQ(times("material tissue: young 5 kPa"), 1u) << result.out;
+    EXPECT_EQ(times("material shell: young 10 kPa"), 1u) << result.out;
+    EXPECT_EQ(times("curve of 2 points"), 1u) << result.out;
+    EXPECT_EQ(times("is thinner than the lattice's spacing"), 1u) << result.out;
+
+    const nlohmann::json json = summary("a"), materials = json["organ"]["materials"];
+    ASSERT_EQ(materials.size(), 2u);
+    EXPECT_EQ(materials[0]["name"], "tissue");
+    EXPECT_EQ(materials[1]["curve"][1]["stress_Pa"], 3000.0);
+    const double inner = materials[0]["volume_m3"], shell = materials[1]["volume_m3"];
+    EXPECT_NEAR(inner + shell, json["lattice"]["filled_volume_m3"].get<double>(), 1e-12);
+    EXPECT_NEAR(materials[1]["mass_kg"].get<double>(), 1100 * shell, 1e-12);
+    EXPECT_EQ(materials[0]["cells"].get<int>() + materials[1]["cells"].get<int>(),
+              json["lattice"]["cells"].get<int>());
+    const std::string page = readWhole(folder_.path() / "a" / "report.html");
+    EXPECT_NE(page.find(">shell<"), std::string::npos);
+    EXPECT_NE(page.find("tension 1\u00A0kPa at 10\u00A0%, 3\u00A0kPa at 20\u00A0%"), std::string::npos);
 }
 
 TEST_F(GlRun, GivesTheSameBytesTwice) {
@@ -243,7 +284,7 @@ TEST_F(GlRun, AFullStandardOutputIsNoticed) {
     EXPECT_NE(failed.err.find("standard output"), std::string::npos) << failed.err;
 }
 
-TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
+TEST_F(GlRun, AnOrganThatRunsAwayIsStoppedAndTheRunGoesOn) {
     // Gravity beyond the range of the state's float32: infinite after one step.
     std::string scene = readWhole(folder_.path() / "ball.toml");
     scene.insert(scene.find("[[organ]]"), "gravity = [\"0 m/s2\", \"-1e45 m/s2\", \"0 m/s2\"]\n");
@@ -256,8 +297,16 @@ TEST_F(GlRun, AStateThatRunsAwayIsACheckThatFailed) {
     EXPECT_NE(result.err.find("node "), std::string::npos) << result.err;
     const nlohmann::json json = summary("away");
     ASSERT_FALSE(json.is_discarded()) << "what led to it is kept";
-    EXPECT_EQ(json["end"], "not finite");
-    EXPECT_EQ(json["frames"], 6) << "found before a surface of it is written";
+    EXPECT_EQ(json["end"], "organ stopped");
+    EXPECT_EQ(json["frames"], 30) << "the others live on";
+    EXPECT_EQ(json["surfaces"], 2) << "of the last good state";
+    EXPECT_EQ(json["stopped"]["reason"], "not finite");
+    EXPECT_TRUE(json["stopped"]["position_m"][1].is_number());
+    EXPECT_EQ(json["largest_displacement_m"], 0);
+    EXPECT_NE(result.out.find("stopped: "), std::string::npos) << result.out;
+    const std::string page = readWhole(folder_.path() / "away" / "report.html");
+    EXPECT_NE(page.find("An organ was stopped"), std::string::npos);
+    EXPECT_NE(page.find("is not finite"), std::string::npos);
 }
 
 // An organ among others moves as it does alone: no contact between organs yet, one tool acts on all.

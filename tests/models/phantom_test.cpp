@@ -131,6 +131,16 @@ TEST(Phantom, BeamIsABox) {
     }
 }
 
+TEST(Phantom, LayerIsABox) {
+    const auto mesh = makePhantom("layer", 11520);
+    ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+    EXPECT_EQ(mesh->faces.size(), 11520u);
+    EXPECT_EQ(test::extentsOf(*mesh).size(), glm::dvec3(120, 48, 120));
+    EXPECT_NEAR(test::volumeOf(*mesh), 120.0 * 48 * 120, 1e-6);
+    EXPECT_EQ(test::manifoldFault(*mesh), "");
+    EXPECT_FALSE(makePhantom("layer", 10000).ok());
+}
+
 TEST(Phantom, BallIsRound) {
     const auto mesh = makePhantom("ball", 5120);
     ASSERT_TRUE(mesh.ok());

@@ -121,6 +121,18 @@ TEST_F(GlComputeSolver, agreesWithReferenceAndFragmentOnThinOrgans) {
     }
 }
 
+TEST_F(GlComputeSolver, normalsOfTheLastStepAreWrittenHoweverStepsAreGrouped) {
+    const Case c;
+    for (ComputeOptions options : variants()) {
+        const auto together = sim::makeComputeSolver(c.setup, options).value();
+        options.normalsEveryStep = true;
+        const auto every = sim::makeComputeSolver(c.setup, options).value();
+        together->advance(12);
+        every->advance(12);
+        EXPECT_EQ(together->state().hash(), every->state().hash()) << options.layout << options.tiles;
+    }
+}
+
 TEST_F(GlComputeSolver, repeatsByteForByte) {
     const Case c;
     for (const ComputeOptions& options : variants()) {

@@ -126,6 +126,22 @@ TEST_F(GlFragmentSolver, normalsCanBeLeftOut) {
     EXPECT_NE(plain->state().normals, full->state().normals);
 }
 
+TEST_F(GlFragmentSolver, normalsOfTheLastStepAreWrittenHoweverStepsAreGrouped) {
+    const Case c;
+    FragmentOptions everyStep;
+    everyStep.normalsEveryStep = true;
+    const auto every = sim::makeFragmentSolver(c.setup, everyStep).value();
+    const auto together = sim::makeFragmentSolver(c.setup).value();
+    const auto alone = sim::makeFragmentSolver(c.setup).value();
+    every->advance(12);
+    together->advance(12);
+    for (int step = 0; step < 12; ++step)
+        alone->advance(1);
+    EXPECT_NE(every->state().normals, sim::restState(c.lattice).normals) << "they do turn";
+    EXPECT_EQ(together->state().hash(), every->state().hash());
+    EXPECT_EQ(alone->state().hash(), every->state().hash());
+}
+
 TEST_F(GlFragmentSolver, continuesFromAStateWithTheSameBytes) {
     const Case c;
     const auto straight = sim::makeFragmentSolver(c.setup).value();

@@ -113,6 +113,10 @@ std::vector<BadScene> badScenes() {
          tool("keys = [{ t = \"1 s\", at = [\"0 m\", \"0 m\", \"0 m\"] },\n { t = \"1 s\", at = [\"0 m\", "
               "\"0 m\", \"0 m\"] }]"),
          "7:8", "times must increase"},
+        {"KeysBackwards",
+         tool("keys = [{ t = \"1 s\", at = [\"0 m\", \"0 m\", \"0 m\"] },\n { t = \"0.5 s\", at = [\"0 m\", "
+              "\"0 m\", \"0 m\"] }]"),
+         "7:8", "times must increase"},
         {"KeysOfNumbers", tool("keys = [1, 2]"), "6:9", "expected an array of { t"},
         {"CameraHeightPerspective", camera("height = \"1 m\""), "6:10", "orthographic"},
         {"CameraFovOrthographic", camera("projection = \"orthographic\"\nfov = \"30 deg\""), "7:7",
@@ -131,6 +135,10 @@ std::vector<BadScene> badScenes() {
         {"SizeHuge", output("size = [960, 100000]"), "6:14", "from 16 to 16384"},
         {"SizeFractions", output("size = [960.5, 960]"), "6:9", "expected array of 2 integers"},
         {"SurfacesAfterEnd", output("surfaces_at = [\"3 s\"]"), "6:15", "after the end"},
+        {"SnapshotsAfterEnd", output("snapshots_at = [\"3 s\"]"), "6:16", "after the end"},
+        {"DisplacementsAfterEnd", output("displacements_at = [\"3 s\"]"), "6:20", "after the end"},
+        {"DisplacementFormatWithoutTimes", output("displacement_format = \"mha\""), "6:23", "no effect"},
+        {"DisplacementFormatUnknown", output("displacement_format = \"nii\""), "6:23", "known: nrrd"},
         {"SurfacesNotAList", output("surfaces_at = \"1 s\""), "6:15", "expected array"},
         {"SheetTooMany", output("sheet_columns = 1\nsheet_rows = 1\nsheet_at = [\"0 s\", \"1 s\"]"), "8:12",
          "places"},

@@ -1,0 +1,58 @@
+#pragma once
+// Keeps the watchdog (sim/watchdog.h) over one simulated organ: looks at its state every kFramesBetweenChecks
+// frames, so that drawing and stepping between them read nothing back, and keeps the last good one. When a
+// look finds the state wrong, the organ goes back to the last good one and takes the same steps again,
+// looking after each: that names the first node that went wrong, and leaves the organ one step before it.
+// From then on it is frozen. States that pass are not changed.
+
+#include "app/run_setup.h"
+#include "sim/cut_list.h"
+#include "sim/watchdog.h"
+
+#include <optional>
+#include <vector>
+
+namespace serosa::app {
+
+constexpr int kFramesBetweenChecks = 10;
+
+class OrganGuard {
+public:
+    /// An organ with a solver, and its strokes so far; both outlive this.
+    OrganGuard(OrganParts& organ, const sim::CutList& cuts, double frameTime);
+
+    /// The solver's state was set from elsewhere, and is that after `frame` frames.
+    void restart(int frame);
+    /// The solver took the steps of a frame, which is number `frame` now.
+    void stepped(int frame);
+    /// Looks at the state. True: it is wrong, and the organ was set back and is frozen now. Nothing is done
+    /// where the state was seen before.
+    bool check(int frame);
+
+    bool frozen() const { return alarm_.has_value(); }
+    const std::optional<sim::Alarm>& alarm() const { return alarm_; }
+    /// Impulses of the tools since the last call, as Solver::takeToolImpulses, which this calls every frame.
+    std::vector<glm::dvec3> takeToolImpulses();
+
+private:
+    /// What was seen to be good, and what the watchdog knew then.
+    struct Good {
+        sim::LatticeState state;
+        sim::Watchdog watchdog;
+    };
+    /// Steps from `good` on until the first look that finds something. Steps `steps` at a time and makes the
+    /// cuts of the list; `good` follows.
+    std::optional<sim::Alarm> retrace(Good& good, std::int64_t last, int steps);
+    void freeze(const sim::Alarm& alarm, const Good& good);
+
+    OrganParts& organ_;
+    const sim::CutList& cuts_;
+    double frameTime_; // s
+    sim::Watchdog watchdog_;
+    std::optional<Good> good_;
+    int seen_ = 0; // the frame of good_
+    std::optional<sim::Alarm> alarm_;
+    std::vector<glm::dvec3> impulses_; // N s
+};
+
+} // namespace serosa::app

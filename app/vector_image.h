@@ -1,0 +1,23 @@
+#pragma once
+// Images of a lattice's displacement for medical image programs, through ITK, which the program alone is
+// linked with: no library of ours and no header needs it.
+
+#include "base/result.h"
+#include "sim/displacement.h"
+
+#include <filesystem>
+
+namespace serosa::app {
+
+/// Three float32 components a node of the grid, mm, in the format that the extension names: .nrrd, or .mha
+/// (MetaImage); not compressed. The file's axes are the world's, without a turn: ITK calls them left,
+/// posterior, superior, whatever they are. Errors: unknown extension; of the file (folder, permission, disk).
+Status writeDisplacementImage(const sim::DisplacementGrid& grid, const std::filesystem::path& file);
+
+/// The same grid with one byte a node: 1 where the lattice has a node, 0 elsewhere.
+Status writeNodeMask(const sim::DisplacementGrid& grid, const std::filesystem::path& file);
+
+/// ITK's, such as "5.2.1".
+const char* imageLibraryVersion();
+
+} // namespace serosa::app

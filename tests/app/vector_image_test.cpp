@@ -1,0 +1,160 @@
+// Displacement images: read back through ITK, and independently the header and bytes of NRRD and MetaImage by
+// hand, against the state.
+#include "app/vector_image.h"
+#include "sim/solver.h"
+#include "tests/app/child.h"
+#include "tests/sim/cut_strokes.h"
+
+#include <gtest/gtest.h>
+#include <itkImage.h>
+#include <itkImageFileReader.h>
+#include <itkMetaImageIO.h>
+#include <itkNrrdImageIO.h>
+#include <itkVector.h>
+
+#include <cstring>
+
+namespace serosa::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Pixel>
+typename itk::Image<Pixel, 3>::Pointer readImage(const fs::path& file) {
+    const auto reader = itk::ImageFileReader<itk::Image<Pixel, 3>>::New();
+    if (file.extension() == ".nrrd")
+        reader->SetImageIO(itk::NrrdImageIO::New());
+    else
+        reader->SetImageIO(itk::MetaImageIO::New());
+    reader->SetFileName(file.string());
+    reader->Update();
+    return reader->GetOutput();
+}
+
+class VectorImage : public ::testing::Test {
+protected:
+    VectorImage() : lattice_(test::hollowBall(7)), state_(sim::restState(lattice_)) {
+        std::mt19937 random(11);
+        for (glm::dvec3& position : state_.positions)
+            position += glm::dvec3(test::number(random, -1, 1), test::number(random, -1, 1),
+                                   test::number(random, -1, 1));
+        grid_ = sim::displacementGrid(lattice_, state_);
+    }
+    /// Metres, from the state.
+    glm::dvec3 moved(std::size_t node) const {
+        return lattice_.toWorld(state_.positions[node]) - lattice_.toWorld(lattice_.restPosition(node));
+    }
+    TestFolder folder_;
+    sim::Lattice lattice_;
+    sim::LatticeState state_;
+    sim::DisplacementGrid grid_;
+};
+
+TEST_F(VectorImage, readsBackThroughItk) {
+    for (const char* extension : {".nrrd", ".mha"}) {
+        const fs::path file = folder_.path() / (std::string("displacement") + extension),
+                       maskFile = folder_.path() / (std::string("mask") + extension);
+        ASSERT_TRUE(writeDisplacementImage(grid_, file).ok());
+        ASSERT_TRUE(writeNodeMask(grid_, maskFile).ok());
+        const auto image = readImage<itk::Vector<float, 3>>(file);
+        const auto mask = readImage<unsigned char>(maskFile);
+        std::size_t nodes = 0;
+        const auto size = image->GetLargestPossibleRegion().GetSize();
+        ASSERT_EQ(mask->GetLargestPossibleRegion().GetSize(), size);
+        for (long z = 0; z < long(size[2]); ++z)
+            for (long y = 0; y < long(size[1]); ++y)
+                for (long x = 0; x < long(size[0]); ++x) {
+                    const itk::Index<3> at{{x, y, z}};
+                    const auto vector = image->GetPixel(at);
+                    const std::int64_t node = lattice_.nodeAt({int(x), int(y), int(z)});
+                    ASSERT_EQ(mask->GetPixel(at), node >= 0 ? 1 : 0);
+                    nodes += node >= 0;
+                    const glm::dvec3 expected = node >= 0 ? 1e3 * moved(std::size_t(node)) : glm::dvec3(0);
+                    // Where ITK says that the pixel lies is where the node rests, in millimetres.
+                    itk::Point<double, 3> place;
+                    image->TransformIndexToPhysicalPoint(at, place);
+                    for (unsigned axis = 0; axis < 3; ++axis) {
+                        ASSERT_NEAR(vector[axis], expected[int(axis)], 1e-6 * 3);
+                        if (node >= 0) {
+                            ASSERT_NEAR(
+                                place[axis],
+                                1e3 * lattice_.toWorld(lattice_.restPosition(std::size_t(node)))[int(axis)],
+                                1e-9);
+                        }
+                    }
+                }
+        EXPECT_EQ(nodes, lattice_.nodeCount());
+    }
+    EXPECT_EQ(folder_.names(),
+              (std::set<std::string>{"displacement.nrrd", "displacement.mha", "mask.nrrd", "mask.mha"}));
+}
+
+TEST_F(VectorImage, hasTheBytesThatItsHeaderSays) {
+    const fs::path file = folder_.path() / "a.nrrd";
+    ASSERT_TRUE(writeDisplacementImage(grid_, file).ok());
+    const std::string bytes = readWhole(file);
+    const std::size_t end = bytes.find("\n\n");
+    ASSERT_NE(end, std::string::npos);
+    const std::string header = bytes.substr(0, end + 1);
+    const glm::ivec3 size = lattice_.nodeDims;
+    EXPECT_EQ(header.rfind("NRRD000", 0), 0u);
+    for (const std::string& line :
+         {std::string("type: float"), std::string("dimension: 4"), std::string("encoding: raw"),
+          std::string("endian: little"), std::string("space: left-posterior-superior"),
+          "sizes: 3 " + std::to_string(size.x) + " " + std::to_string(size.y) + " " + std::to_string(size.z),
+          std::string("kinds: vector domain domain domain"),
+          std::string("space directions: none (3,0,0) (0,3,0) (0,0,3)")})
+        EXPECT_NE(header.find("\n" + line + "\n"), std::string::npos) << line << " is not in\n" << header;
+    ASSERT_EQ(bytes.size() - end - 2, std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z) * 12);
+    std::size_t checked = 0;
+    for (std::size_t node = 0; node < lattice_.nodeCount(); ++node, ++checked) {
+        const glm::ivec3 at = lattice_.nodes[node];
+        float vector[3];
+        std::memcpy(vector, bytes.data() + end + 2 + 12 * std::size_t((at.z * size.y + at.y) * size.x + at.x),
+                    sizeof vector);
+        for (int axis = 0; axis < 3; ++axis)
+            ASSERT_NEAR(vector[axis], 1e3 * moved(node)[axis], 1e-6 * 3) << node;
+    }
+    EXPECT_GT(checked, 100u);
+
+    ASSERT_TRUE(writeDisplacementImage(grid_, folder_.path() / "a.mha").ok());
+    const std::string meta = readWhole(folder_.path() / "a.mha");
+    const std::size_t data = meta.find("ElementDataFile = LOCAL\n");
+    ASSERT_NE(data, std::string::npos);
+    EXPECT_NE(meta.find("ElementNumberOfChannels = 3\n"), std::string::npos);
+    EXPECT_NE(meta.find("ElementSpacing = 3 3 3\n"), std::string::npos);
+    EXPECT_EQ(meta.substr(data + 24), bytes.substr(end + 2)) << "the same pixels in both formats";
+}
+
+TEST_F(VectorImage, isTheSameBytesTwice) {
+    for (const char* name : {"a.nrrd", "b.nrrd", "a.mha", "b.mha"})
+        ASSERT_TRUE(writeDisplacementImage(grid_, folder_.path() / name).ok());
+    EXPECT_EQ(readWhole(folder_.path() / "a.nrrd"), readWhole(folder_.path() / "b.nrrd"));
+    EXPECT_EQ(readWhole(folder_.path() / "a.mha"), readWhole(folder_.path() / "b.mha"));
+}
+
+TEST_F(VectorImage, errorsLeaveNothingBehind) {
+    for (const char* name : {"no/such/folder.nrrd", "no/such/folder.mha", "a.nii"}) {
+        const Status written = writeDisplacementImage(grid_, folder_.path() / name);
+        ASSERT_FALSE(written.ok()) << name;
+        EXPECT_NE(written.error().message.find(name), std::string::npos);
+        EXPECT_EQ(written.error().message.find('\n'), std::string::npos) << written.error().message;
+    }
+    // A disk that fills up: files end at 1,000 bytes.
+    signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{1000, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    std::vector<Status> full;
+    for (const char* name : {"a.nrrd", "a.mha"})
+        full.push_back(writeDisplacementImage(grid_, folder_.path() / name));
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, SIG_DFL);
+    for (const Status& written : full)
+        EXPECT_FALSE(written.ok());
+    EXPECT_EQ(folder_.names(), (std::set<std::string>{}));
+}
+
+} // namespace
+} // namespace serosa::app
