@@ -237,7 +237,7 @@ template <bool kStiffens>
 void volumeRange(const CpuCellPass& pass, std::size_t firstBlock, std::size_t lastBlock) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
-    float columns[9 * kTileStride]; // the block before the tile, then the tile
+    HWY_ALIGN float columns[9 * kTileStride]; // the block before the tile, then the tile
     std::fill_n(columns, 9 * kTileStride, 0.0f);
     if (firstBlock > 0)
         cellBlock<true, kStiffens>(d, pass, firstBlock - 1, false, columns);

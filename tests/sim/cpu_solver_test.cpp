@@ -75,10 +75,13 @@ SolverSetup plainSetup(const Lattice& lattice, double damping = 0) {
     return setup;
 }
 
+/// Infinity where a number is none.
 double largestDifference(const LatticeState& a, const LatticeState& b) {
     double worst = 0;
-    for (std::size_t node = 0; node < a.positions.size(); ++node)
-        worst = std::max(worst, glm::length(a.positions[node] - b.positions[node]));
+    for (std::size_t node = 0; node < a.positions.size(); ++node) {
+        const double apart = glm::length(a.positions[node] - b.positions[node]);
+        worst = std::isfinite(apart) ? std::max(worst, apart) : HUGE_VAL;
+    }
     return worst;
 }
 
