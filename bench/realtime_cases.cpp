@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSpacing = 2e-3, kDensity = 1000; // m, kg/m3
 constexpr double kYoung[] = {5000, 20000, 100000}; // Pa
-constexpr std::size_t kNodes[] = {1000, 3000, 8000, 20000, 50000, 100000, 200000};
+constexpr std::size_t kNodes[] = {100, 300, 1000, 3000, 8000, 20000, 50000, 100000, 200000};
 constexpr std::size_t kShown = 20000; // nodes of the column that is the same for all
 constexpr const char* kSolvers[] = {"cpu", "fragment", "compute"};
 
