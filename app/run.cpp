@@ -97,7 +97,8 @@ public:
         Progress progress("frames", frames_);
         for (int frame = 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
-            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted();
+            const bool interrupted = interrupt.interrupted(); // once a frame: the last one is sampled
+            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupted;
             if (sampled || surfaceFrames_.contains(frame))
                 player_.check(); // nothing is written of a state that is wrong
             SEROSA_TRY(picture(frame));
@@ -105,7 +106,7 @@ public:
             if (sampled)
                 sample(frame);
             SEROSA_TRY(writeSurfaces(frame));
-            if (interrupt.interrupted() && frame < frames_)
+            if (interrupted && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
         }
