@@ -109,7 +109,8 @@ public:
         Progress progress("frames", frames_);
         for (int frame = first + 1; frame <= frames_ && record_.end == "complete"; ++frame) {
             step(frame);
-            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupt.interrupted();
+            const bool interrupted = interrupt.interrupted(); // once a frame: the last one is sampled
+            const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupted;
             if (sampled || surfaceFrames_.contains(frame) || files_.due(frame))
                 player_.check(); // nothing is written of a state that is wrong
             SEROSA_TRY(picture(frame));
@@ -117,7 +118,7 @@ public:
             if (sampled)
                 sample(frame);
             SEROSA_TRY(writeFiles(frame));
-            if (interrupt.interrupted() && frame < frames_)
+            if (interrupted && frame < frames_)
                 record_.end = "interrupted";
             progress.show(frame);
         }

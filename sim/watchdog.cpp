@@ -140,8 +140,11 @@ void Watchdog::addWork(double from, double to, const std::vector<glm::dvec3>& im
                 piece(key.time);
         piece(to);
         const double work = pieces > 1 ? glm::length(impulses[i]) * fastest : glm::dot(impulses[i], velocity);
+        // What a tool takes back is not deducted: tissue that slides around a sphere is lifted a little more
+        // than the contact's plane says, and where a deeply embedded sphere has large forces all round, their
+        // small sum says little. check() follows the energy down.
         if (std::isfinite(work))
-            budget_ += work;
+            budget_ += std::max(0.0, work);
     }
 }
 

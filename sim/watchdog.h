@@ -1,18 +1,20 @@
 #pragma once
 // Says when an organ's state can no longer be right, and at which node. A state is wrong where
 //   - a coordinate is not finite;
-//   - it holds more kinetic and elastic energy than can have come in. Everything but tools is conservative or
-//     takes energy away, and a tool cannot put in more than impulse times its velocity: a node that a tool
-//     moves goes from the velocity v to the tool's V (a push: along the contact's normal) by the impulse J =
-//     m (V - v), which gives it m (V^2 - v^2)/2 = J V - m |V - v|^2/2. So the energy that may be there, with
-//     gravity's potential, is that of the start plus the sum of J V; and never more than kEnergyTolerance
-//     times what was there when last looked at, plus the work since, so that damping tightens the bound;
+//   - it holds more kinetic and elastic energy than can have come in, and a node moves by more than half a
+//     spacing a step against a neighbour, which no wave that the step resolves does. Everything but tools is
+//     conservative or takes energy away, and a tool cannot put in more than impulse times its velocity: a
+//     node that a tool moves goes from the velocity v to the tool's V (a push: along the contact's normal) by
+//     the impulse J = m (V - v), which gives it m (V^2 - v^2)/2 = J V - m |V - v|^2/2. So the energy that may
+//     be there, with gravity's potential, is that of the start plus the sum of the positive J V; and never
+//     more than kEnergyTolerance times what was there when last looked at, plus the work since, so that
+//     damping tightens the bound;
 //   - its springs need a smaller step than it takes. A spring of length d resists along itself with k, across
 //     with k (1 - L/d) where it is stretched. With S_i the sum of these 3x3 matrices over the springs of node
 //     i, omega^2 <= max_i 2 |S_i| / m_i whatever the state is, exactly 12 k/m inside the rest lattice. Where
 //     |S_i| has grown so far over its rest value that dt^2 omega^2 + 2 dt tau omega_s^2 < 4 (ARCHITECTURE.md,
-//     stability) fails with omega scaled by it, the node overruns the step: more than double length on all
-//     sides, which a step that blows up shows at once and tissue that is drawn along one axis never does.
+//     stability) fails with omega scaled by it, the node overruns the step: double length on all
+//     sides, which a step that blows up shows at once, or seven times along one axis.
 // Checking changes nothing in the state.
 
 #include "sim/lattice_state.h"

@@ -43,8 +43,9 @@ LatticeState stirred(const Lattice& lattice, double size) {
 
 } // namespace
 
-// Elastic and kinetic energy of an undamped block are exactly what its tools put in. Steps of a tenth, so
-// that half a step between positions and increments does not blur it.
+// No more elastic and kinetic energy is in an undamped block than its tools put in. All of it is where they
+// hold nodes; a push takes some, as every touch is inelastic. Steps of a tenth, so that half a step between
+// positions and increments does not blur it.
 TEST(Watchdog, WorkOfToolsIsTheEnergyThatComesIn) {
     const Lattice lattice = test::blockLattice(5, 5, 5);
     for (const sim::ToolMode mode : {sim::ToolMode::push, sim::ToolMode::grasp}) {
@@ -52,16 +53,16 @@ TEST(Watchdog, WorkOfToolsIsTheEnergyThatComesIn) {
         setup.timeStep /= 10;
         for (const glm::ivec3& node : lattice.nodes)
             setup.fixed.push_back(node.y == 0);
-        const glm::dvec3 from(0.0005, mode == sim::ToolMode::push ? 0.0145 : 0.0075, 0),
-            to = from - glm::dvec3(0.001, 0.002, 0);
-        setup.tools = {{"tool", mode, 0.006, {{0, from}, {0.05, to}, {0.1, from}, {0.15, to}}}};
+        const glm::dvec3 from(0.0005, mode == sim::ToolMode::push ? 0.0165 : 0.0075, 0),
+            to = from - glm::dvec3(0.001, 0.005, 0);
+        setup.tools = {{"tool", mode, 0.006, {{0, from}, {0.2, to}, {0.3, from}, {0.4, to}}}};
         Watchdog watchdog(setup, stepOf(setup));
         const auto solver = sim::makeReferenceSolver(setup);
         solver->setState(sim::startState(setup));
         watchdog.start(solver->state());
         const int every = 20;
         double most = 0;
-        for (int step = 0; (step + every) * setup.timeStep < 0.15; step += every) {
+        for (int step = 0; (step + every) * setup.timeStep < 0.4; step += every) {
             solver->advance(every);
             watchdog.addWork(step * setup.timeStep, (step + every) * setup.timeStep,
                              solver->takeToolImpulses());
@@ -70,7 +71,7 @@ TEST(Watchdog, WorkOfToolsIsTheEnergyThatComesIn) {
             most = std::max(most, watchdog.energyShare());
         }
         EXPECT_LT(most, 1.05) << int(mode);
-        EXPECT_GT(most, 0.9) << int(mode);
+        EXPECT_GT(most, mode == sim::ToolMode::push ? 0.2 : 0.9) << int(mode);
     }
 }
 
@@ -133,8 +134,8 @@ TEST(Watchdog, AStableStepWithTheSameStartGoesOn) {
     }
 }
 
-// On all sides drawn out by s, a node inside resists 1 + 2 (1 - 1/s) times as much as at rest, along one axis
-// never twice as much.
+// On all sides drawn out by s, a node inside or on a face resists 1 + 2 (1 - 1/s) times as much as at rest;
+// along one axis by 6 less than twice as much.
 TEST(Watchdog, SaysWhatStepAStretchedStateNeeds) {
     const Lattice lattice = test::blockLattice(4, 4, 4);
     const SolverSetup setup = setupOf(lattice);
@@ -145,7 +146,7 @@ TEST(Watchdog, SaysWhatStepAStretchedStateNeeds) {
         LatticeState state = stirred(lattice, 0.6);
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
             state.positions[node] =
-                lattice.restPosition(node) * (allSides ? glm::dvec3(s) : glm::dvec3(10 * s, 1, 1));
+                lattice.restPosition(node) * (allSides ? glm::dvec3(s) : glm::dvec3(1.5 * s, 1, 1));
         watchdog.start(state);
         const auto alarm = watchdog.check(state);
         ASSERT_EQ(alarm.has_value(), allSides);
@@ -153,8 +154,10 @@ TEST(Watchdog, SaysWhatStepAStretchedStateNeeds) {
             continue;
         EXPECT_EQ(alarm->kind, AlarmKind::step);
         const glm::ivec3 at = lattice.nodes[alarm->node];
+        int faces = 0; // half the springs and half the mass on a face, the same rate
         for (int axis = 0; axis < 3; ++axis)
-            EXPECT_TRUE(at[axis] > 0 && at[axis] < 4) << "inside";
+            faces += at[axis] == 0 || at[axis] == 4;
+        EXPECT_LE(faces, 1);
         const double rate2 = step.stiffestRate2 + 2 * (1 - 1 / s) * step.springRate2;
         EXPECT_NEAR(alarm->allowed * std::sqrt(rate2) / 2, 1, 1e-9);
         EXPECT_EQ(alarm->measured, setup.timeStep);
