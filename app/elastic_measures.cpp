@@ -1,10 +1,10 @@
-// Statics of the lattice with small displacements: stiffness matrix w_ij n n^T from the lattice's springs and
-// f b g g^T from the cells' mean divergence (k = h = 1).
+// What is measured on lattice beams: see app/elastic_measures.h; the statics are those of
+// app/lattice_statics.h.
 #include "app/elastic_measures.h"
 
+#include "app/lattice_statics.h"
+
 #include <Eigen/Dense>
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/Sparse>
 #include <array>
 #include <cmath>
 #include <random>
@@ -14,102 +14,22 @@ namespace serosa::app {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::SparseMatrix<double>;
-
-glm::dvec3 at(const Vector& v, std::size_t node) {
-    return {v[Eigen::Index(3 * node)], v[Eigen::Index(3 * node + 1)], v[Eigen::Index(3 * node + 2)]};
-}
-
-template <class Visit> // visit(first, second, direction from first to second, weight, rest length)
-void forEachSpring(const sim::Lattice& lattice, Visit visit) {
-    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
-        for (int d = 0; d < 18; d += 2)
-            if (const std::int64_t other = lattice.neighbour(node, d); other >= 0) {
-                const glm::dvec3 offset(sim::kNeighbourOffsets[std::size_t(d)]);
-                visit(node, std::size_t(other), glm::normalize(offset), lattice.springWeight(node, d),
-                      glm::length(offset));
-            }
-}
-
-using Entries = std::vector<Eigen::Triplet<double>>;
-
-void addDyad(Entries& entries, std::size_t a, std::size_t b, const glm::dvec3& u, const glm::dvec3& v) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            entries.emplace_back(int(3 * a) + i, int(3 * b) + j, u[i] * v[j]);
-}
-
-/// \param bulk (lambda - mu) / mu of the volumetric term
-Matrix stiffnessMatrix(const sim::Lattice& lattice, double bulk, const Entries& extra) {
-    Entries entries = extra;
-    forEachSpring(lattice, [&entries](std::size_t a, std::size_t b, const glm::dvec3& n, double w, double) {
-        addDyad(entries, a, a, w * n, n);
-        addDyad(entries, b, b, w * n, n);
-        addDyad(entries, a, b, -w * n, n);
-        addDyad(entries, b, a, -w * n, n);
-    });
-    for (const sim::LatticeCell& cell : lattice.cells) {
-        if (bulk <= 0)
-            break;
-        for (int a = 0; a < 8; ++a)
-            for (int b = 0; b < 8; ++b) {
-                const auto corner = [](int c) { return glm::ivec3(c & 1, (c >> 1) & 1, c >> 2); };
-                const auto node = [&](int c) { return std::size_t(lattice.nodeAt(cell.grid + corner(c))); };
-                const auto gradient = [&](int c) { return 0.25 * (2.0 * glm::dvec3(corner(c)) - 1.0); };
-                addDyad(entries, node(a), node(b), bulk * cell.fill / 255.0 * gradient(a), gradient(b));
-            }
-    }
-    const auto size = Eigen::Index(3 * lattice.nodeCount());
-    Matrix matrix(size, size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-}
 
 glm::dvec3 localPosition(const Beam& beam, std::size_t node) {
     return glm::transpose(beam.turn) * (beam.lattice.restPosition(node) - beam.middle);
 }
 
-/// A linear static problem: loads, and stiff springs that prescribe displacements along directions.
-struct Problem {
-    Entries extra;
-    Vector load;
-
-    explicit Problem(const sim::Lattice& lattice)
-        : load(Vector::Zero(Eigen::Index(3 * lattice.nodeCount()))) {
-        // A light hold against rigid drift: far below any force that is measured.
-        for (int i = 0; i < int(3 * lattice.nodeCount()); ++i)
-            extra.emplace_back(i, i, 1e-10);
-    }
-    void push(std::size_t node, const glm::dvec3& force) {
-        for (int i = 0; i < 3; ++i)
-            load[Eigen::Index(3 * node) + i] += force[i];
-    }
-    void prescribe(std::size_t node, const glm::dvec3& direction, double displacement) {
-        const double grip = 1e3; // of k
-        addDyad(extra, node, node, grip * direction, direction);
-        push(node, grip * displacement * direction);
-    }
-    Vector solve(const sim::Lattice& lattice, double bulk) const {
-        const Matrix matrix = stiffnessMatrix(lattice, bulk, extra);
-        Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
-        solver.setTolerance(1e-8);
-        solver.setMaxIterations(20000);
-        solver.compute(matrix);
-        return solver.solve(load);
-    }
-};
-
 /// Displacements when both end sections' displacement along `direction(p)` is `amount(p)`, p local.
 template <class Direction, class Amount>
 Vector solveWithEnds(const Beam& beam, double bulk, Direction direction, Amount amount) {
-    Problem problem(beam.lattice);
+    LatticeProblem problem(beam.lattice);
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node) {
         const glm::dvec3 p = localPosition(beam, node);
         if (std::abs(p.z) >= 0.5 * beam.length - 1)
             for (const glm::dvec3& along : direction(p))
                 problem.prescribe(node, beam.turn * along, amount(p, along));
     }
-    return problem.solve(beam.lattice, bulk);
+    return problem.solve(bulk);
 }
 
 /// Force along the axis, moment about the lateral axis x and torque about the axis that the tissue carries
@@ -118,10 +38,11 @@ struct SectionLoad {
     double force = 0, moment = 0, torque = 0;
 };
 SectionLoad sectionLoad(const Beam& beam, double bulk, const Vector& displacement) {
-    const Vector inner = stiffnessMatrix(beam.lattice, bulk, {}) * displacement;
+    const Vector inner = latticeStiffness(beam.lattice, bulk) * displacement;
     SectionLoad sum;
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node) {
-        const glm::dvec3 p = localPosition(beam, node), f = glm::transpose(beam.turn) * at(inner, node);
+        const glm::dvec3 p = localPosition(beam, node),
+                         f = glm::transpose(beam.turn) * nodeVector(inner, node);
         if (p.z < 0)
             continue;
         sum.force += f.z;
@@ -144,7 +65,7 @@ Eigen::VectorXd fit(const Beam& beam, const Vector& displacement, const glm::dve
         row << 1, p.x, p.y, p.z, p.y * p.z, p.x * p.z;
         const double mass = beam.lattice.massShare(node);
         normal += mass * row * row.transpose();
-        right += mass * row * glm::dot(direction, at(displacement, node));
+        right += mass * row * glm::dot(direction, nodeVector(displacement, node));
     }
     return normal.ldlt().solve(right);
 }
@@ -224,7 +145,7 @@ BeamMeasures measureBeam(const Beam& beam, const sim::Tissue& tissue, bool torsi
 double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
     const double bulk = tissue.bulkShare(), pressure = 1e-3; // k/h
     const double modulus = 1 + bulk + 2.0 / 3;               // lambda + 2/3 mu
-    Problem problem(piece.lattice);
+    LatticeProblem problem(piece.lattice);
     const glm::dvec3 half = 0.5 * glm::dvec3(piece.thickness, piece.thickness, piece.length);
     const int samples = 8; // along each unit of length
     for (int axis = 0; axis < 3; ++axis)
@@ -252,7 +173,7 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
                 }
             }
         }
-    const Vector pressed = problem.solve(piece.lattice, bulk);
+    const Vector pressed = problem.solve(bulk);
     // Of all the material: a rough surface layer, half of so small a piece, shares the load unevenly.
     double change = 0, volume = 0;
     for (const sim::LatticeCell& cell : piece.lattice.cells) {
@@ -260,7 +181,7 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
         for (int c = 0; c < 8; ++c) {
             const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
             const auto node = std::size_t(piece.lattice.nodeAt(cell.grid + corner));
-            change += cell.fill * 0.25 * glm::dot(2.0 * glm::dvec3(corner) - 1.0, at(pressed, node));
+            change += cell.fill * 0.25 * glm::dot(2.0 * glm::dvec3(corner) - 1.0, nodeVector(pressed, node));
         }
     }
     change /= volume;
@@ -269,7 +190,7 @@ double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
 
 double cantileverSagShare(const Beam& beam, const sim::Tissue& tissue) {
     const double bulk = tissue.bulkShare(), mu = 1, young = 2 * (1 + tissue.poisson) * mu, weight = 1e-6;
-    Problem problem(beam.lattice);
+    LatticeProblem problem(beam.lattice);
     const auto share = [&](std::size_t node) { return beam.lattice.massShare(node); };
     const auto inSection = [&](std::size_t node, double end) {
         return std::abs(localPosition(beam, node).z - end) < 1;
@@ -286,12 +207,12 @@ double cantileverSagShare(const Beam& beam, const sim::Tissue& tissue) {
             problem.push(node, weight * total * share(node) / clamped * beam.turn[1]);
         }
     }
-    const Vector moved = problem.solve(beam.lattice, bulk);
+    const Vector moved = problem.solve(bulk);
     double sums[2] = {0, 0}, masses[2] = {0, 0}, places[2] = {0, 0};
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node)
         for (const int end : {0, 1})
             if (inSection(node, (end - 0.5) * beam.length)) {
-                sums[end] += share(node) * glm::dot(beam.turn[1], at(moved, node));
+                sums[end] += share(node) * glm::dot(beam.turn[1], nodeVector(moved, node));
                 places[end] += share(node) * localPosition(beam, node).z;
                 masses[end] += share(node);
             }
@@ -321,7 +242,7 @@ double linearForceMismatch(const sim::SolverSetup& setup) {
             displacement[Eigen::Index(3 * node) + axis] = value;
             state.positions[node][axis] += value;
         }
-    const Vector force = stiffnessMatrix(lattice, setup.tissue.bulkShare(), {}) * displacement;
+    const Vector force = latticeStiffness(lattice, setup.tissue.bulkShare()) * displacement;
     const std::unique_ptr<sim::Solver> solver = sim::makeReferenceSolver(setup);
     solver->setState(state);
     solver->advance(1);
@@ -332,7 +253,7 @@ double linearForceMismatch(const sim::SolverSetup& setup) {
     const double nominal = setup.timeStep * setup.timeStep * assumed.stiffnessOverMass(lattice.spacing);
     double worst = 0, largest = 0;
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
-        const glm::dvec3 expected = -at(force, node);
+        const glm::dvec3 expected = -nodeVector(force, node);
         const glm::dvec3 got = after.increments[node] * lattice.massShare(node) / nominal;
         worst = std::max(worst, glm::length(got - expected));
         largest = std::max(largest, glm::length(expected));
