@@ -13,7 +13,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 
 namespace serosa::app {
 
@@ -67,7 +69,16 @@ std::string injectionText(const Injection& injection) {
 }
 
 Status writeFiles(const fs::path& folder, const std::vector<GroupChecks>& results, bool allowSkip,
-                  const VerifyPageFacts& facts) {
+                  VerifyPageFacts facts) {
+    for (const GroupChecks& group : results)
+        for (const VerifyPicture& picture : group.pictures) {
+            const fs::path file = folder / (picture.name + ".png");
+            SEROSA_TRY(render::writePng(picture.image, file));
+            std::ifstream stream(file, std::ios::binary);
+            facts.pictures.push_back({group.group,
+                                      {std::istreambuf_iterator<char>(stream), {}},
+                                      picture.caption + " (" + picture.name + ".png)"});
+        }
     const nlohmann::ordered_json json = verifyJson(results, allowSkip);
     SEROSA_TRY(writeFileAtomically(folder / "verify.json", std::string_view(json.dump(1) + "\n")));
     return writeFileAtomically(folder / "report.html", std::string_view(verifyReport(json, facts)));
@@ -130,6 +141,7 @@ const std::vector<VerifyGroup>& verifyGroups() {
         {"solver", "the spring lattice against theory and against its reference", true, verifySolver},
         {"materials", "tissue against the theory of elasticity, nearly incompressible too", true,
          verifyMaterials},
+        {"fem", "an organ against a finite-element solution with quadratic tetrahedra", true, verifyFem},
         {"cuts", "strokes through the lattice: what they cut, on CPU and GPU, and what falls apart", true,
          verifyCuts},
         {"stability", "random organs, tools and cuts: no state runs away, and the step's bound is one", true,
@@ -177,7 +189,7 @@ int runVerify(const std::vector<std::string>& names, const VerifyOptions& option
             printError(Error{"group " + group->name + ": " + ran.error().message});
             return ran.error().exitCode;
         }
-        results.push_back({group->name, list.checks()});
+        results.push_back({group->name, list.checks(), list.pictures()});
         printChecks(results.back(), allowSkip, out);
         const auto rejected = std::count_if(list.checks().begin(), list.checks().end(),
                                             [&](const Check& check) { return !accepted(check, allowSkip); });

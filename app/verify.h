@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "gpu/context.h"
+#include "render/image.h"
 
 #include <functional>
 #include <iosfwd>
@@ -43,7 +44,14 @@ struct VerifyOptions {
                         // runs where said
 };
 
-/// Collects the checks of one group.
+/// A picture of what was measured: NAME.png in the output folder, and in the report.
+struct VerifyPicture {
+    std::string name; // without .png
+    render::Image image;
+    std::string caption;
+};
+
+/// Collects the checks of one group, and its pictures.
 class CheckList {
 public:
     void equalAbs(std::string name, double measured, double expected, double tolerance, std::string unit);
@@ -51,10 +59,13 @@ public:
     void atMost(std::string name, double measured, double limit, std::string unit);
     void atLeast(std::string name, double measured, double limit, std::string unit);
     void skip(std::string name, std::string why);
+    void picture(VerifyPicture picture) { pictures_.push_back(std::move(picture)); }
     const std::vector<Check>& checks() const { return checks_; }
+    const std::vector<VerifyPicture>& pictures() const { return pictures_; }
 
 private:
     std::vector<Check> checks_;
+    std::vector<VerifyPicture> pictures_;
 };
 
 /// A group needs a GL context current when it runs if `needsGl`. An error (not a failed check) is a Status.
@@ -63,18 +74,18 @@ struct VerifyGroup {
     bool needsGl = false;
     std::function<Status(const VerifyOptions&, CheckList&)> run;
 };
-/// "solver" (app/verify_solver.cpp), "mapping" (app/verify_mapping.cpp), "materials"
-/// (app/verify_materials.cpp).
 const std::vector<VerifyGroup>& verifyGroups();
 
 Status verifySolver(const VerifyOptions& options, CheckList& checks);    // app/verify_solver.cpp
 Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/verify_mapping.cpp
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify_materials.cpp
+Status verifyFem(const VerifyOptions& options, CheckList& checks);       // app/verify_fem.cpp
 Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify_cuts.cpp
 Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify_stability.cpp
 
-/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json and report.html if
-/// folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5 (no context).
+/// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json, report.html and the
+/// groups' pictures if folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5
+/// (no context).
 int runVerify(const std::vector<std::string>& names, const VerifyOptions& options, const std::string& folder,
               bool allowSkip, std::ostream& out);
 

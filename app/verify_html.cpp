@@ -217,6 +217,9 @@ std::string verifyReport(const Json& checks, const VerifyPageFacts& facts) {
             page.element("p", {}, "The group holds no check.");
         else
             writeChecks(page, sorted(group));
+        for (const VerifyPagePicture& picture : facts.pictures)
+            if (picture.group == name)
+                writePicture(page, picture.png, picture.caption, picture.caption);
         page.close();
     }
     if (!facts.seconds.empty()) {

@@ -10,6 +10,10 @@
 
 namespace serosa::app {
 
+struct VerifyPagePicture {
+    std::string group, png, caption; // png: the file's bytes
+};
+
 /// What the page says beside the checks.
 struct VerifyPageFacts {
     std::string version;  // of the program: "0.1.0"
@@ -17,6 +21,7 @@ struct VerifyPageFacts {
     std::string injected; // a fault that was put in on purpose, as --inject has it; empty: none
     bool full = false;    // --full
     std::vector<std::pair<std::string, double>> seconds; // wall time of each group
+    std::vector<VerifyPagePicture> pictures = {};        // each stands below its group's checks
 };
 
 std::string verifyReport(const nlohmann::ordered_json& checks, const VerifyPageFacts& facts);

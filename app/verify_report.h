@@ -15,6 +15,7 @@ namespace serosa::app {
 struct GroupChecks {
     std::string group;
     std::vector<Check> checks;
+    std::vector<VerifyPicture> pictures = {};
 };
 
 /// {group: [{name, kind, measured, expected, tolerance, unit, pass}]}; a skipped check has pass false (true

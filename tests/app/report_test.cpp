@@ -430,6 +430,19 @@ TEST(VerifyReport, ShowsEveryCheckFailuresFirst) {
     EXPECT_NE(page.byId("group-2")->text.find("software only"), std::string::npos);
 }
 
+TEST(VerifyReport, HasEachPictureBelowItsGroup) {
+    VerifyPageFacts facts = kFacts;
+    facts.pictures = {{"mapping", kPng, "gaps <in> h (gaps.png)"}};
+    const std::string text = verifyReport(checks(), facts);
+    expectWellFormed(text);
+    const PageReader page(text);
+    EXPECT_TRUE(page.all("img", "", page.byId("group-1")).empty());
+    const auto images = page.all("img", "", page.byId("group-2"));
+    ASSERT_EQ(images.size(), 1u);
+    EXPECT_EQ(images[0]->attribute("src"), "data:image/png;base64," + base64(kPng));
+    EXPECT_NE(page.byId("group-2")->text.find("gaps <in> h (gaps.png)"), std::string::npos);
+}
+
 TEST(VerifyReport, SaysAtOnceWhetherAllPassed) {
     Json json = checks();
     json.erase("mapping");

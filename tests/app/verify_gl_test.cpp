@@ -83,6 +83,7 @@ TEST(GlVerify, SpringFaultsFailTheGroupsThatOwnThem) {
     EXPECT_EQ(verifyWith("solver", "stiffness=1.05"), 1);
     EXPECT_EQ(dropped.get(), 1);
     EXPECT_EQ(verifyWith("materials", "stiffness=1.05"), 1);
+    EXPECT_EQ(verifyWith("fem", "stiffness=1.1"), 1);
 }
 
 } // namespace
