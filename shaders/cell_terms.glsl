@@ -1,5 +1,5 @@
 // The pass over the cells before a step, one invocation a cell, at the texel of its lowest corner: the volumetric term
-// (sim/volume_term.h: three columns of fill p cof(F), fills 0 .. 255), and the cell's factor of stiffening
+// (sim/volume_term.h: three columns of fill dW/dF, fills 0 .. 255), and the cell's factor of stiffening
 // (sim/stiffening.h). Twin of VolumeTerm::addForces and Stiffening::factors. Fragment and compute pass share it.
 #include "shared_constants.h"
 
@@ -41,23 +41,32 @@ CellTerm cellTerm(ivec2 texel) {
         bits[c] = imageLoad(i_nodeInfo, texels[c]).x & kInside[c];
         whole = whole && bits[c] == kInside[c];
     }
-    float factor = 1.0, pressure = 0.0;
     // Differences first: they are exact, and the rest state is exactly the identity.
     vec3 a = 0.25 * ((p[1] - p[0]) + (p[3] - p[2]) + (p[5] - p[4]) + (p[7] - p[6]));
     vec3 b = 0.25 * ((p[2] - p[0]) + (p[3] - p[1]) + (p[6] - p[4]) + (p[7] - p[5]));
     vec3 c = 0.25 * ((p[4] - p[0]) + (p[5] - p[1]) + (p[6] - p[2]) + (p[7] - p[3]));
     vec3 x = cross(b, c), y = cross(c, a), z = cross(a, b);
     float J = dot(a, x);
-    float soft = min(1.0, SRS_VOLUME_STIFFENING / max(dot(x, x) + dot(y, y) + dot(z, z), 1e-12));
-    float bulk = whole ? u_bulks[material] * soft * soft : 0.0;
+    float size = dot(x, x) + dot(y, y) + dot(z, z), change = J - 1.0, collapse = max(0.0, SRS_COLLAPSED - J);
+    float soft = min(1.0, SRS_VOLUME_STIFFENING / max(size, 1e-12)), q = soft * soft;
+    float bulk = whole ? u_bulks[material] : 0.0, recovery = whole ? u_recoveries[material] : 0.0, factor = 1.0;
 #ifdef SRS_STIFFENING
-    factor = stiffening(material, springEnergy(material, bits, p) + 0.5 * bulk * (J - 1.0) * (J - 1.0));
+    factor = stiffening(material, springEnergy(material, bits, p) + 0.5 * bulk * q * change * change);
+    bulk *= factor;
 #endif
-    if (whole)
-        pressure =
-            factor * bulk * (J - 1.0) - u_recoveries[material] * max(0.0, SRS_COLLAPSED - J) * soft * soft;
-    term.x = vec4(fill * pressure * x, J);
-    term.y = vec4(fill * pressure * y, factor);
-    term.z = vec4(fill * pressure * z, 0.0);
+    float pressure = fill * q * (bulk * change - recovery * collapse);
+    x *= pressure;
+    y *= pressure;
+    z *= pressure;
+    if (soft < 1.0) { // dq/dF
+        float turn = -2.0 * fill * q / size * (bulk * change * change + recovery * collapse * collapse);
+        float aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
+        x += turn * ((bb + cc) * a - ab * b - ca * c);
+        y += turn * ((cc + aa) * b - bc * c - ab * a);
+        z += turn * ((aa + bb) * c - ca * a - bc * b);
+    }
+    term.x = vec4(x, J);
+    term.y = vec4(y, factor);
+    term.z = vec4(z, 0.0);
     return term;
 }

@@ -1,7 +1,7 @@
 // What a node takes from its eight cells, as the pass of cell_terms.glsl wrote it: the force of the volumetric term
 // (SRS_VOLUME), and by how much each cell has stiffened (SRS_STIFFENING). A cell lies at the texel of its lowest corner.
 // Included by solver_kernel.glsl where SRS_CELL_PASS is defined.
-uniform sampler2D t_cellX; // columns of fill p cof(F), fills 0 .. 255 (sim/volume_term.h)
+uniform sampler2D t_cellX; // columns of fill dW/dF, fills 0 .. 255 (sim/volume_term.h)
 uniform sampler2D t_cellY; // w: the factor of sim/stiffening.h
 #ifdef SRS_VOLUME
 uniform sampler2D t_cellZ;
@@ -12,7 +12,7 @@ Cells g_factors;
 Cells timesFactors(Cells c) { return Cells(c.below * g_factors.below, c.above * g_factors.above); }
 #endif
 
-/// Adds the corner force -fill p cof(F) sign of one cell in units of k h / 1020 (fill / 255 * 1020 / 4 = fill), and
+/// Adds the corner force -fill dW/dF sign of one cell in units of k h / 1020 (fill / 255 * 1020 / 4 = fill), and
 /// returns its factor.
 float addCell(uint fill, vec3 sign, ivec2 texel) {
     if (fill == 0u)

@@ -29,7 +29,7 @@ public:
 
 private:
     gpu::Program program_;
-    gpu::Texture2D columns_[3]; // a cell's fill p cof(F), column by column; alphas: J, factor, nothing
+    gpu::Texture2D columns_[3]; // a cell's fill dW/dF, column by column; alphas: J, factor, nothing
     gpu::Framebuffer target_;   // fragment pass
     gpu::VertexArray emptyVertices_;
     bool compute_ = false;

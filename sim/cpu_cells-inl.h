@@ -162,7 +162,13 @@ HWY_INLINE Vec stiffeningOf(Lanes d, const CpuCellPass& pass, std::size_t block,
 constexpr std::size_t kTileSlots = 128;
 constexpr std::size_t kTileStride = kTileSlots + kMostLanes;
 
-/// One block of cells: the columns of -f p cof(F) / 4 to `columns` (nine, kTileStride apart), the gains to
+/// sum += turn (weight own - w2 second - w3 third)
+HWY_INLINE void addTurn(Vec turn, Vec own, Vec weight, Vec second, Vec w2, Vec third, Vec w3, Vec& sum) {
+    const Vec change = hn::NegMulAdd(w3, third, hn::NegMulAdd(w2, second, hn::Mul(weight, own)));
+    sum = hn::MulAdd(turn, change, sum);
+}
+
+/// One block of cells: the columns of -f dW/dF / 4 to `columns` (nine, kTileStride apart), the gains to
 /// the slots.
 template <bool kVolume, bool kStiffens>
 HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, bool writeGains,
@@ -171,9 +177,10 @@ HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, b
     const Corners corners(slot, pass.rows + block * 8);
     const Vec one = hn::Set(d, 1.0f), zero = hn::Zero(d);
     Vec xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
-    Vec volume = zero, pressure = zero, collapse = zero; // energy and W' at a bulk of 1; recovery's
+    Vec volume = zero, factor = one; // energy at a bulk of 1
+    Vec change = zero, collapse = zero, q = one, size = one;
+    Vec ax = zero, ay = zero, az = zero, bx = zero, by = zero, bz = zero, cx = zero, cy = zero, cz = zero;
     if constexpr (kVolume) {
-        Vec ax, ay, az, bx, by, bz, cx, cy, cz;
         gradient(d, pass.positions[0], corners, ax, bx, cx);
         gradient(d, pass.positions[1], corners, ay, by, cy);
         gradient(d, pass.positions[2], corners, az, bz, cz);
@@ -181,36 +188,59 @@ HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, b
         cross(cx, cy, cz, ax, ay, az, yx, yy, yz);
         cross(ax, ay, az, bx, by, bz, zx, zy, zz);
         const Vec ratio = hn::MulAdd(az, xz, hn::MulAdd(ay, xy, hn::Mul(ax, xx)));
-        const Vec size = hn::Add(hn::Add(square(xx, xy, xz), square(yx, yy, yz)), square(zx, zy, zz));
+        size = hn::Add(hn::Add(square(xx, xy, xz), square(yx, yy, yz)), square(zx, zy, zz));
         const Vec soft = hn::Min(
             one, hn::Div(hn::Set(d, float(SRS_VOLUME_STIFFENING)), hn::Max(size, hn::Set(d, 1e-12f))));
-        const Vec change = hn::Sub(ratio, one);
-        pressure = hn::Mul(hn::Mul(change, soft), soft);
+        q = hn::Mul(soft, soft);
+        change = hn::Sub(ratio, one);
         collapse = hn::Max(zero, hn::Sub(hn::Set(d, float(SRS_COLLAPSED)), ratio));
-        volume = hn::Mul(hn::Mul(hn::Set(d, 0.5f), change), pressure);
+        volume = hn::Mul(hn::Set(d, 0.5f), hn::Mul(hn::Mul(change, change), q));
     }
-    if constexpr (kVolume)
-        pressure = hn::Mul(hn::Load(d, pass.bulk + slot), pressure);
     if constexpr (kStiffens) {
         if constexpr (kVolume) // none in a cell that a cut runs through
             volume = hn::IfThenElseZero(hn::Gt(hn::Load(d, pass.bulk + slot), zero), volume);
-        const Vec factor = stiffeningOf(d, pass, block, slot, corners, volume);
-        pressure = hn::Mul(factor, pressure);
+        factor = stiffeningOf(d, pass, block, slot, corners, volume);
         for (int pair = 0; writeGains && pair < pass.pairs; ++pair)
             hn::Store(hn::Mul(factor, hn::Load(d, pass.constants[pair] + slot)), d, pass.gains[pair] + slot);
     }
     if constexpr (kVolume) {
-        pressure =
-            hn::Mul(hn::Set(d, -0.25f), hn::NegMulAdd(hn::Load(d, pass.recovery + slot), collapse, pressure));
-        hn::StoreU(hn::Mul(pressure, xx), d, columns);
-        hn::StoreU(hn::Mul(pressure, xy), d, columns + kTileStride);
-        hn::StoreU(hn::Mul(pressure, xz), d, columns + 2 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, yx), d, columns + 3 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, yy), d, columns + 4 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, yz), d, columns + 5 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, zx), d, columns + 6 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, zy), d, columns + 7 * kTileStride);
-        hn::StoreU(hn::Mul(pressure, zz), d, columns + 8 * kTileStride);
+        const Vec bulk = hn::Mul(hn::Load(d, pass.bulk + slot), factor);
+        const Vec recovery = hn::Load(d, pass.recovery + slot);
+        const Vec share = hn::Mul(hn::Set(d, -0.25f), q);
+        const Vec pressure = hn::Mul(share, hn::NegMulAdd(recovery, collapse, hn::Mul(bulk, change)));
+        xx = hn::Mul(pressure, xx), xy = hn::Mul(pressure, xy), xz = hn::Mul(pressure, xz);
+        yx = hn::Mul(pressure, yx), yy = hn::Mul(pressure, yy), yz = hn::Mul(pressure, yz);
+        zx = hn::Mul(pressure, zx), zy = hn::Mul(pressure, zy), zz = hn::Mul(pressure, zz);
+        const auto squeezed = hn::Lt(q, one);
+        if (!hn::AllFalse(d, squeezed)) { // dq/dF
+            const Vec energy =
+                hn::MulAdd(hn::Mul(bulk, change), change, hn::Mul(hn::Mul(recovery, collapse), collapse));
+            const Vec turn = hn::IfThenElseZero(
+                squeezed, hn::Mul(hn::Div(hn::Mul(hn::Set(d, -2.0f), share), size), energy));
+            const Vec aa = square(ax, ay, az), bb = square(bx, by, bz), cc = square(cx, cy, cz);
+            const Vec ab = hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx))),
+                      bc = hn::MulAdd(bz, cz, hn::MulAdd(by, cy, hn::Mul(bx, cx))),
+                      ca = hn::MulAdd(cz, az, hn::MulAdd(cy, ay, hn::Mul(cx, ax)));
+            const Vec notA = hn::Add(bb, cc), notB = hn::Add(cc, aa), notC = hn::Add(aa, bb);
+            addTurn(turn, ax, notA, bx, ab, cx, ca, xx);
+            addTurn(turn, ay, notA, by, ab, cy, ca, xy);
+            addTurn(turn, az, notA, bz, ab, cz, ca, xz);
+            addTurn(turn, bx, notB, cx, bc, ax, ab, yx);
+            addTurn(turn, by, notB, cy, bc, ay, ab, yy);
+            addTurn(turn, bz, notB, cz, bc, az, ab, yz);
+            addTurn(turn, cx, notC, ax, ca, bx, bc, zx);
+            addTurn(turn, cy, notC, ay, ca, by, bc, zy);
+            addTurn(turn, cz, notC, az, ca, bz, bc, zz);
+        }
+        hn::StoreU(xx, d, columns);
+        hn::StoreU(xy, d, columns + kTileStride);
+        hn::StoreU(xz, d, columns + 2 * kTileStride);
+        hn::StoreU(yx, d, columns + 3 * kTileStride);
+        hn::StoreU(yy, d, columns + 4 * kTileStride);
+        hn::StoreU(yz, d, columns + 5 * kTileStride);
+        hn::StoreU(zx, d, columns + 6 * kTileStride);
+        hn::StoreU(zy, d, columns + 7 * kTileStride);
+        hn::StoreU(zz, d, columns + 8 * kTileStride);
     }
 }
 

@@ -119,13 +119,24 @@ HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t sl
         my = hn::Add(y, hn::Set(d, motion.move[1]));
         mz = hn::Add(z, hn::Set(d, motion.move[2]));
     } else {
-        const auto apart = hn::Gt(distance2, hn::Set(d, 1e-12f));
-        const Vec distance = hn::Sqrt(hn::IfThenElse(apart, distance2, hn::Set(d, 1.0f)));
-        const Vec zero = hn::Zero(d);
-        mx = hn::MulAdd(hn::IfThenElse(apart, hn::Div(ax, distance), zero), reach, hn::Set(d, motion.to[0]));
-        my = hn::MulAdd(hn::IfThenElse(apart, hn::Div(ay, distance), hn::Set(d, 1.0f)), reach,
-                        hn::Set(d, motion.to[1]));
-        mz = hn::MulAdd(hn::IfThenElse(apart, hn::Div(az, distance), zero), reach, hn::Set(d, motion.to[2]));
+        // Along the normal at the step's start: sim/tool_motion.cpp.
+        Vec nx = hn::Sub(x, hn::Set(d, motion.to[0] - motion.move[0])),
+            ny = hn::Sub(y, hn::Set(d, motion.to[1] - motion.move[1])),
+            nz = hn::Sub(z, hn::Set(d, motion.to[2] - motion.move[2]));
+        const Vec start2 = hn::MulAdd(nz, nz, hn::MulAdd(ny, ny, hn::Mul(nx, nx)));
+        const auto apart = hn::Gt(start2, hn::Set(d, 1e-12f));
+        const Vec start = hn::Sqrt(hn::IfThenElse(apart, start2, hn::Set(d, 1.0f)));
+        nx = hn::IfThenElseZero(apart, hn::Div(nx, start));
+        ny = hn::IfThenElse(apart, hn::Div(ny, start), hn::Set(d, 1.0f));
+        nz = hn::IfThenElseZero(apart, hn::Div(nz, start));
+        const Vec along = hn::MulAdd(az, nz, hn::MulAdd(ay, ny, hn::Mul(ax, nx)));
+        const Vec aside2 = hn::NegMulAdd(along, along, distance2);
+        const Vec height =
+            hn::Sqrt(hn::Max(hn::MulSub(reach, reach, hn::Max(aside2, hn::Zero(d))), hn::Zero(d)));
+        const Vec out = hn::Sub(height, along);
+        mx = hn::MulAdd(nx, out, px);
+        my = hn::MulAdd(ny, out, py);
+        mz = hn::MulAdd(nz, out, pz);
     }
     const Vec mass = hn::IfThenElseZero(touched, hn::Load(d, step.mass + slot));
     impulse[0] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(mx, px)))));

@@ -12,12 +12,12 @@
 // curve.
 //
 // Springs that turn and stretch are not linear: nominal stress over E eps is 1.07 to 1.13 at a strain of 0.2
-// at Poisson's ratio 0.25, and 0.96 to 1.04 at 0.45, by direction against the grid. a = 7/4 (0.45 - nu), not below 0, lies
-// in the middle of all directions; what is left of their spread is how far the stress lies off its curve.
-// Shear, compression and pressure stiffen by the same energy (a cell pressed on all sides by eps/3 stores
-// more than one stretched by eps). No deformation is stiffer than the curve's steepest tangent over its first
-// one: |f.v|^2 <= 2 U v.K v for the springs' forces f, so that Psi' K + Psi'' f f^T <= (Psi' + 2 U Psi'') K =
-// sigma'(eps)/E K (a = 0).
+// at Poisson's ratio 0.25, and 0.96 to 1.04 at 0.45, by direction against the grid. a = 7/4 (0.45 - nu), not
+// below 0, lies in the middle of all directions; what is left of their spread is how far the stress lies off
+// its curve. Shear, compression and pressure stiffen by the same energy (a cell pressed on all sides by eps/3
+// stores more than one stretched by eps). No deformation is stiffer than the curve's steepest tangent over
+// its first one: |f.v|^2 <= 2 U v.K v for the springs' forces f, so that Psi' K + Psi'' f f^T <= (Psi' + 2 U
+// Psi'') K = sigma'(eps)/E K (a = 0).
 //
 // Damping stays that of the first slope. Springs that are cut store nothing; a cell that a cut runs through
 // has no volumetric term.

@@ -1,13 +1,16 @@
-// Contact projects a node out of the sphere along the radius; the increment that follows from it ends the
-// approach and keeps the slide. What touches is the organ's surface, not its nodes: those of partly filled
-// cells lie up to a spacing outside of it and may enter the sphere by as much, those inside are kept off it
-// by their depth. Without that the weak outer cells are crushed flat between the sphere and the full ones
-// below, and fold. Grasped nodes move with the sphere.
+// Contact moves a node out of the sphere along the normal that it had at the step's start; the increment that
+// follows from it ends the approach and keeps the slide. Relative to the tool a node then never moves further
+// than it would have without contact: along the radius at the end of the step, a fast node that crosses a
+// part of the sphere would leave it with more energy than it came with. What touches is the organ's surface,
+// not its nodes: those of partly filled cells lie up to a spacing outside of it and may enter the sphere by
+// as much, those inside are kept off it by their depth. Without that the weak outer cells are crushed flat
+// between the sphere and the full ones below, and fold. Grasped nodes move with the sphere.
 #include "sim/tool_motion.h"
 
 #include "shaders/shared_constants.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace serosa::sim {
 
@@ -20,7 +23,11 @@ glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool h
     const double distance = glm::length(away), reach = std::max(radius + depth, 0.0);
     if (!(distance < reach)) // what is no number stays so: a tool must not hide it
         return free;
-    return to + (distance > 1e-6 ? away / distance : glm::dvec3(0, 1, 0)) * reach;
+    const glm::dvec3 start = x - from;
+    const double apart = glm::length(start);
+    const glm::dvec3 normal = apart > 1e-6 ? start / apart : glm::dvec3(0, 1, 0);
+    const double along = glm::dot(away, normal), aside2 = std::max(distance * distance - along * along, 0.0);
+    return free + normal * (std::sqrt(std::max(reach * reach - aside2, 0.0)) - along);
 }
 
 std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step) {

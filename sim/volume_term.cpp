@@ -15,11 +15,26 @@ glm::dmat3 cofactors(const glm::dmat3& f) {
     return {glm::cross(f[1], f[2]), glm::cross(f[2], f[0]), glm::cross(f[0], f[1])};
 }
 
+double square(const glm::dmat3& m) {
+    return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
+}
+
 double softening(const glm::dmat3& cofactor) {
-    const double square = glm::dot(cofactor[0], cofactor[0]) + glm::dot(cofactor[1], cofactor[1]) +
-                          glm::dot(cofactor[2], cofactor[2]);
-    const double share = std::min(1.0, SRS_VOLUME_STIFFENING / std::max(square, 1e-12));
+    const double share = std::min(1.0, SRS_VOLUME_STIFFENING / std::max(square(cofactor), 1e-12));
     return share * share;
+}
+
+/// dW/dF of sim/volume_term.h, k/h.
+glm::dmat3 volumeStress(const glm::dmat3& gradient, double bulk, double recovery) {
+    const glm::dmat3 cofactor = cofactors(gradient);
+    const double change = glm::dot(gradient[0], cofactor[0]) - 1,
+                 collapse = std::max(0.0, SRS_COLLAPSED - 1 - change);
+    const double q = softening(cofactor), size = square(cofactor);
+    glm::dmat3 stress = q * (bulk * change - recovery * collapse) * cofactor;
+    if (size > SRS_VOLUME_STIFFENING) // dq/dF = -4 q / size (|F|^2 F - F F^T F)
+        stress -= 2 * q / size * (bulk * change * change + recovery * collapse * collapse) *
+                  (square(gradient) * gradient - gradient * glm::transpose(gradient) * gradient);
+    return stress;
 }
 
 } // namespace
@@ -61,15 +76,10 @@ VolumeTerm::VolumeTerm(const Lattice& lattice, const Tissue& tissue,
 void VolumeTerm::addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force,
                            const std::vector<double>& cellFactors) const {
     for (const Cell& cell : cells_) {
-        const glm::dmat3 gradient = meanGradient(cell.corners, positions);
-        const glm::dmat3 cofactor = cofactors(gradient);
-        const double volume = glm::dot(gradient[0], cofactor[0]);
         const double bulk = cellFactors.empty() ? cell.bulk : cell.bulk * cellFactors[cell.index];
-        const double pressure =
-            (bulk * (volume - 1) - cell.recovery * std::max(0.0, SRS_COLLAPSED - volume)) *
-            softening(cofactor);
+        const glm::dmat3 stress = volumeStress(meanGradient(cell.corners, positions), bulk, cell.recovery);
         for (int c = 0; c < 8; ++c)
-            force[cell.corners[std::size_t(c)]] -= 0.25 * cell.fill * pressure * (cofactor * cornerSign(c));
+            force[cell.corners[std::size_t(c)]] -= 0.25 * cell.fill * (stress * cornerSign(c));
     }
 }
 

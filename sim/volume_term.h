@@ -4,19 +4,22 @@
 //
 // A cell with fill f whose 24 connections are all there has, in lattice units and units of k h^2, with
 //   g_i = (+-1, +-1, +-1)/4 the corner gradients,  F = sum_i x_i g_i^T (the mean over the cell),  J = det F,
-// the energy f W(J) and the corner forces -f p cof(F) g_i,  p = W'(J):
-//   p = (b (J - 1)  -  r max(0, J0 - J)) q,      b = bulkShare(),  r = kRecovery, J0 = kCollapsed.
+// the energy f W and the corner forces -f dW/dF g_i:
+//   W = q/2 (b (J - 1)^2 + r max(0, J0 - J)^2),      b = bulkShare(),  r = kRecovery, J0 = kCollapsed,
+//   dW/dF = q (b (J - 1) - r max(0, J0 - J)) cof(F) + dq/dF W/q.
 // With several materials k is that of material 0, and b and r are MaterialShares::bulk and ::recovery of the
 // cell's own. A cell that has stiffened (sim/stiffening.h) has its factor on b.
 // Linearized this is the energy f b/2 (div u)^2 h^3, so lambda = (1 + b) k/h and mu = k/h stay as they were.
 // One point a cell is a selective reduced integration: nothing locks at Poisson's ratio 0.49, and the springs
-// resist the modes that the mean does not see. sum_i g_i = 0 keeps momentum; cof(F) F^T = J 1 is symmetric,
-// which keeps angular momentum: both exactly, whatever p is.
+// resist the modes that the mean does not see. sum_i g_i = 0 keeps momentum; dW/dF F^T is symmetric, since W
+// does not change with a rotation, which keeps angular momentum: both exactly.
 //
-// q = min(1, (kStiffening / |cof F|^2)^2) departs from the energy where a cell is squeezed by more than 30%.
-// The tangent stiffness grows with |cof F|^2 (4 b |cof F|_2^2 k/m for the stiffest mode): unscaled, a cell
-// that is pressed to half its height has four times the rest lattice's, and no step found at rest would be
-// stable. With q it stays below 2.2 times of that, and 0.7 of the bound is stable up to 2.04 times.
+// q = min(1, (kStiffening / |cof F|^2)^2) is 1 until a cell is squeezed by more than 30%; beyond,
+// dq/dF = -4 q / |cof F|^2 (|F|^2 F - F F^T F). (Without that part the force has no energy, and undamped
+// tissue gains some with every swing.) The tangent stiffness grows with |cof F|^2 (4 b |cof F|_2^2 k/m for
+// the stiffest mode): unscaled, a cell that is pressed to half its height has four times the rest lattice's,
+// and no step found at rest would be stable. With q it stays below 2.2 times of that, and 0.7 of the bound is
+// stable up to 2.04 times.
 //
 // Recovery: springs have no energy in a cell that is turned inside out. W(J) of the second term pushes J up
 // from below J0 = 0.4, that is 26% of linear strain on all sides, or 60% along one axis: nothing changes for
@@ -46,7 +49,7 @@ public:
     /// \param cellFactors one a cell of the lattice: what its b is multiplied by; empty: 1
     void addForces(const std::vector<glm::dvec3>& positions, std::vector<glm::dvec3>& force,
                    const std::vector<double>& cellFactors = {}) const;
-    /// In units of k h^2. Where q < 1 it is that of the force at the same cof(F).
+    /// In units of k h^2.
     double energy(const std::vector<glm::dvec3>& positions) const;
     /// The part of it that recovery adds.
     double recoveryEnergy(const std::vector<glm::dvec3>& positions) const;
