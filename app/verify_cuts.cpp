@@ -1,7 +1,8 @@
 // Group `cuts`: random strokes through a heart on the CPU and the GPU, and a beam cut in two. That no spring
 // is left across a blade is checked by another method than the one that cuts: the quadratic equation of a
 // line and a bilinear patch, in long double.
-#include "app/verify.h"
+#include "app/verify_cuts.h"
+
 #include "models/phantom.h"
 #include "shaders/shared_constants.h"
 #include "sim/cut_list.h"
@@ -226,7 +227,8 @@ Status severedBeam(CheckList& checks) {
 
 Status verifyCuts(const VerifyOptions& options, CheckList& checks) {
     SEROSA_TRY(heartStrokes(options, checks));
-    return severedBeam(checks);
+    SEROSA_TRY(severedBeam(checks));
+    return verifyAgreement(options, checks);
 }
 
 } // namespace serosa::app
