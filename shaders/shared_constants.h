@@ -38,6 +38,8 @@
 #define SRS_TOOL_PUSH 1
 #define SRS_TOOL_GRASP 2
 
+#define SRS_EJECTION 0.01 // spacings a step: how fast a push moves out what is inside of it already
+
 // Strokes (sim/blade.h). The last three are powers of two, exact as float and as double.
 #define SRS_STROKE_BLADE 0
 #define SRS_STROKE_CAUTERIZE 1

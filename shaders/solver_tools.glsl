@@ -12,11 +12,11 @@ vec3 applyTool(int tool, uint holder, float depth, vec3 x, vec3 free) {
         return holder == uint(tool + 1) ? x + u_toolMoves[tool].xyz : free;
     vec3 away = free - u_toolSpheres[tool].xyz;
     float distance2 = dot(away, away);
-    float radius = max(u_toolSpheres[tool].w + depth, 0.0);
-    if (mode != SRS_TOOL_PUSH || !(distance2 < radius * radius)) // what is no number stays so
-        return free;
     vec3 start = x - (u_toolSpheres[tool].xyz - u_toolMoves[tool].xyz);
     float start2 = dot(start, start);
+    float radius = min(max(u_toolSpheres[tool].w + depth, 0.0), sqrt(start2) + SRS_EJECTION);
+    if (mode != SRS_TOOL_PUSH || !(distance2 < radius * radius)) // what is no number stays so
+        return free;
     vec3 normal = start2 > 1e-12 ? start * inversesqrt(start2) : vec3(0.0, 1.0, 0.0);
     float along = dot(away, normal);
     return free + normal * (sqrt(max(radius * radius - max(distance2 - along * along, 0.0), 0.0)) - along);

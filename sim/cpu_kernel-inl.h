@@ -100,8 +100,7 @@ HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t sl
               az = hn::Sub(pz, hn::Set(d, motion.to[2]));
     const Vec distance2 = hn::MulAdd(az, az, hn::MulAdd(ay, ay, hn::Mul(ax, ax)));
     // The sphere touches the surface, which lies that far above the node.
-    const Vec reach =
-        hn::Max(hn::Add(hn::Set(d, motion.radius), hn::Load(d, step.depth + slot)), hn::Zero(d));
+    Vec reach = hn::Max(hn::Add(hn::Set(d, motion.radius), hn::Load(d, step.depth + slot)), hn::Zero(d));
     hn::Mask<Lanes> touched;
     if (motion.mode == SRS_TOOL_PUSH) {
         touched = hn::Lt(distance2, hn::Mul(reach, reach));
@@ -126,6 +125,8 @@ HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t sl
         const Vec start2 = hn::MulAdd(nz, nz, hn::MulAdd(ny, ny, hn::Mul(nx, nx)));
         const auto apart = hn::Gt(start2, hn::Set(d, 1e-12f));
         const Vec start = hn::Sqrt(hn::IfThenElse(apart, start2, hn::Set(d, 1.0f)));
+        reach = hn::Min(reach, hn::Add(hn::IfThenElseZero(apart, start), hn::Set(d, float(SRS_EJECTION))));
+        touched = hn::And(touched, hn::Lt(distance2, hn::Mul(reach, reach)));
         nx = hn::IfThenElseZero(apart, hn::Div(nx, start));
         ny = hn::IfThenElse(apart, hn::Div(ny, start), hn::Set(d, 1.0f));
         nz = hn::IfThenElseZero(apart, hn::Div(nz, start));

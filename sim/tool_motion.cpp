@@ -1,10 +1,11 @@
 // Contact moves a node out of the sphere along the normal that it had at the step's start; the increment that
 // follows from it ends the approach and keeps the slide. Relative to the tool a node then never moves further
 // than it would have without contact: along the radius at the end of the step, a fast node that crosses a
-// part of the sphere would leave it with more energy than it came with. What touches is the organ's surface,
-// not its nodes: those of partly filled cells lie up to a spacing outside of it and may enter the sphere by
-// as much, those inside are kept off it by their depth. Without that the weak outer cells are crushed flat
-// between the sphere and the full ones below, and fold. Grasped nodes move with the sphere.
+// part of the sphere would leave it with more energy than it came with. What lies inside already, let go by a
+// grasp there, comes out slowly, not in one step. What touches is the organ's surface, not its nodes: those
+// of partly filled cells lie up to a spacing outside of it and may enter the sphere by as much, those inside
+// are kept off it by their depth. Without that the weak outer cells are crushed flat between the sphere and
+// the full ones below, and fold. Grasped nodes move with the sphere.
 #include "sim/tool_motion.h"
 
 #include "shaders/shared_constants.h"
@@ -20,11 +21,11 @@ glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool h
     if (mode != SRS_TOOL_PUSH)
         return free;
     const glm::dvec3 away = free - to;
-    const double distance = glm::length(away), reach = std::max(radius + depth, 0.0);
+    const glm::dvec3 start = x - from;
+    const double distance = glm::length(away), apart = glm::length(start);
+    const double reach = std::min(std::max(radius + depth, 0.0), apart + SRS_EJECTION);
     if (!(distance < reach)) // what is no number stays so: a tool must not hide it
         return free;
-    const glm::dvec3 start = x - from;
-    const double apart = glm::length(start);
     const glm::dvec3 normal = apart > 1e-6 ? start / apart : glm::dvec3(0, 1, 0);
     const double along = glm::dot(away, normal), aside2 = std::max(distance * distance - along * along, 0.0);
     return free + normal * (std::sqrt(std::max(reach * reach - aside2, 0.0)) - along);
