@@ -6,7 +6,8 @@
 // .y, .z = fills of the 8 cells around the node, 8 bits each (cell c at corner bits x=1, y=2, z=4); .w =
 // materials of these cells, 4 bits each.
 #define SRS_CONNECTION_MASK 0x3ffffu
-#define SRS_DEPTH_SHIFT 18 // below the surface, as contact counts it: steps of 1/85 spacing from -2 (sim/node_depths.h)
+#define SRS_DEPTH_SHIFT                                                                                      \
+    18 // below the surface, as contact counts it: steps of 1/85 spacing from -2 (sim/node_depths.h)
 #define SRS_DEPTH_MASK 0xffu
 #define SRS_FLAG_ACTIVE (1u << 26)
 #define SRS_FLAG_FIXED (1u << 27)
@@ -59,8 +60,8 @@
 #define SRS_RECOVERY 3.0          // for; its stiffness in units of k/h
 
 // Materials (sim/material.h)
-#define SRS_MAX_MATERIALS 16      // an organ: 4 bits a cell
-#define SRS_CURVE_BREAKS 8        // turns of a stress-strain curve, the strain limit's among them
+#define SRS_MAX_MATERIALS 16 // an organ: 4 bits a cell
+#define SRS_CURVE_BREAKS 8   // turns of a stress-strain curve, the strain limit's among them
 #define SRS_SPRING_BEND(poisson) (1.75 * (0.45 - (poisson))) // sim/stiffening.h
 #define SRS_STRAIN_ITERATIONS 4
 #define SRS_LIMIT_STIFFENING 10.0 // tangent beyond a strain limit over the tangent before it
