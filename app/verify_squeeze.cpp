@@ -6,8 +6,7 @@
 #include "sim/cell_volumes.h"
 #include "sim/solver.h"
 
-#include <cmath>
-#include <limits>
+#include <string>
 
 namespace serosa::app {
 
@@ -19,7 +18,7 @@ struct Squeezed {
     double surface = 0; // volume that the mapped surface encloses, over rest
 };
 
-/// Two spheres of ten times the phantom's height press it along y to `share` of its height, and hold.
+/// Two spheres of thirty times the phantom's height press it along y to `share` of its height, and hold.
 Result<Squeezed> squeeze(const std::string& phantom, std::size_t faces, std::size_t nodes, double share,
                          const sim::Tissue& tissue) {
     SEROSA_ASSIGN(const sim::TriangleMesh mesh, models::phantomInMetres(phantom, faces));
@@ -27,7 +26,7 @@ Result<Squeezed> squeeze(const std::string& phantom, std::size_t faces, std::siz
     request.nodes = nodes;
     SEROSA_ASSIGN(const sim::Lattice lattice, sim::buildLattice(mesh, request));
     const glm::dvec3 middle = 0.5 * (mesh.lowest() + mesh.highest());
-    const double half = 0.5 * (mesh.highest() - mesh.lowest()).y, radius = 20 * half;
+    const double half = 0.5 * (mesh.highest() - mesh.lowest()).y, radius = 60 * half;
     sim::SolverSetup setup;
     setup.lattice = &lattice;
     setup.tissue = tissue;
@@ -69,12 +68,14 @@ Status verifySqueeze(const VerifyOptions& options, CheckList& checks) {
     struct Case {
         const char* phantom;
         std::size_t faces, nodes;
+        double share; // the liver's thin edge and vessels stand beyond the nodes that the plates hold
     };
-    for (const Case& one : {Case{"ball", 5000, 2000}, {"kidney", 20000, 8000}, {"liver", 20000, 8000}}) {
+    for (const Case& one :
+         {Case{"ball", 5000, 2000, 0.8}, {"kidney", 20000, 8000, 0.8}, {"liver", 20000, 8000, 0.75}}) {
         if (!options.full && one.phantom != std::string("ball"))
             continue;
         SEROSA_ASSIGN(const Squeezed squeezed,
-                      squeeze(one.phantom, one.faces, one.nodes, 0.8, tissueOf(options, 0.49)));
+                      squeeze(one.phantom, one.faces, one.nodes, one.share, tissueOf(options, 0.49)));
         const std::string name = std::string(one.phantom) + " squeezed at nu 0.49: ";
         checks.atMost(name + "height / rest", squeezed.height, 0.85, "1");
         checks.equalAbs(name + "volume change, sum over cells", squeezed.cells - 1, 0, 0.02, "1");
