@@ -21,7 +21,7 @@ glm::dvec3 localPosition(const Beam& beam, std::size_t node) {
 
 /// Displacements when both end sections' displacement along `direction(p)` is `amount(p)`, p local.
 template <class Direction, class Amount>
-Vector solveWithEnds(const Beam& beam, double bulk, Direction direction, Amount amount) {
+Vector solveWithEnds(const Beam& beam, const sim::Tissue& tissue, Direction direction, Amount amount) {
     LatticeProblem problem(beam.lattice);
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node) {
         const glm::dvec3 p = localPosition(beam, node);
@@ -29,7 +29,7 @@ Vector solveWithEnds(const Beam& beam, double bulk, Direction direction, Amount 
             for (const glm::dvec3& along : direction(p))
                 problem.prescribe(node, beam.turn * along, amount(p, along));
     }
-    return problem.solve(bulk);
+    return problem.solve(tissue);
 }
 
 /// Force along the axis, moment about the lateral axis x and torque about the axis that the tissue carries
@@ -37,8 +37,8 @@ Vector solveWithEnds(const Beam& beam, double bulk, Direction direction, Amount 
 struct SectionLoad {
     double force = 0, moment = 0, torque = 0;
 };
-SectionLoad sectionLoad(const Beam& beam, double bulk, const Vector& displacement) {
-    const Vector inner = latticeStiffness(beam.lattice, bulk) * displacement;
+SectionLoad sectionLoad(const Beam& beam, const sim::Tissue& tissue, const Vector& displacement) {
+    const Vector inner = latticeStiffness(beam.lattice, tissue) * displacement;
     SectionLoad sum;
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node) {
         const glm::dvec3 p = localPosition(beam, node),
@@ -93,18 +93,10 @@ void loadFaces(const Beam& piece, LatticeProblem& problem, Traction traction) {
                 p[axis] = side * half[axis] * (1 - 1e-9);
                 p[u] = half[u] * ((i % nu + 0.5) / nu * 2 - 1);
                 p[v] = half[v] * ((i / nu + 0.5) / nv * 2 - 1);
-                const glm::dvec3 q =
-                    piece.middle + piece.turn * p + glm::dvec3(piece.lattice.centre); // grid coordinates
-                const glm::ivec3 cell(glm::floor(q));
-                const glm::dvec3 t = q - glm::dvec3(cell);
-                for (int c = 0; c < 8; ++c) {
-                    const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-                    double weight = 1;
-                    for (int a = 0; a < 3; ++a)
-                        weight *= corner[a] ? t[a] : 1 - t[a];
-                    if (const std::int64_t node = piece.lattice.nodeAt(cell + corner); node >= 0)
-                        problem.push(std::size_t(node), weight * (piece.turn * force));
-                }
+                for (const TrilinearCorner& corner :
+                     trilinearCorners(piece.lattice, piece.middle + piece.turn * p))
+                    if (corner.node >= 0)
+                        problem.push(std::size_t(corner.node), corner.weight * (piece.turn * force));
             }
         }
 }
@@ -143,26 +135,26 @@ Beam makeBeam(double thickness, double length, const glm::dmat3& turn, double sp
 
 BeamMeasures measureBeam(const Beam& beam, const sim::Tissue& tissue, bool torsion) {
     BeamMeasures measures;
-    const double bulk = tissue.bulkShare(), mu = 1, young = 2 * (1 + tissue.poisson) * mu; // of k/h
+    const double mu = 1, young = 2 * (1 + tissue.poisson) * mu; // of k/h
     const auto axial = [](const glm::dvec3&) { return std::array{glm::dvec3(0, 0, 1)}; };
     const Vector pulled =
-        solveWithEnds(beam, bulk, axial, [](const glm::dvec3& p, const glm::dvec3&) { return 1e-3 * p.z; });
+        solveWithEnds(beam, tissue, axial, [](const glm::dvec3& p, const glm::dvec3&) { return 1e-3 * p.z; });
     const double strain = fit(beam, pulled, beam.turn[2])[3];
     const double lateral = 0.5 * (fit(beam, pulled, beam.turn[0])[1] + fit(beam, pulled, beam.turn[1])[2]);
-    measures.youngShare = sectionLoad(beam, bulk, pulled).force / (materialArea(beam) * strain * young);
+    measures.youngShare = sectionLoad(beam, tissue, pulled).force / (materialArea(beam) * strain * young);
     measures.poisson = -lateral / strain;
 
     const Vector bent = solveWithEnds(
-        beam, bulk, axial, [](const glm::dvec3& p, const glm::dvec3&) { return 1e-4 * p.y * p.z; });
+        beam, tissue, axial, [](const glm::dvec3& p, const glm::dvec3&) { return 1e-4 * p.y * p.z; });
     const double curvature = fit(beam, bent, beam.turn[2])[4];
     const double square = std::pow(beam.thickness, 4);
-    measures.bendingShare = sectionLoad(beam, bulk, bent).moment / (curvature * young * square / 12);
+    measures.bendingShare = sectionLoad(beam, tissue, bent).moment / (curvature * young * square / 12);
     if (!torsion)
         return measures;
 
     // The ends turn about the axis, free to warp.
     const Vector twisted = solveWithEnds(
-        beam, bulk,
+        beam, tissue,
         [](const glm::dvec3&) {
             return std::array{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)};
         },
@@ -170,26 +162,26 @@ BeamMeasures measureBeam(const Beam& beam, const sim::Tissue& tissue, bool torsi
             return 1e-4 * p.z * glm::dot(along, glm::dvec3(-p.y, p.x, 0));
         });
     const double twist = 0.5 * (fit(beam, twisted, beam.turn[1])[5] - fit(beam, twisted, beam.turn[0])[4]);
-    measures.torsionShare = sectionLoad(beam, bulk, twisted).torque / (twist * mu * 0.1406 * square);
+    measures.torsionShare = sectionLoad(beam, tissue, twisted).torque / (twist * mu * 0.1406 * square);
     return measures;
 }
 
 double bulkModulusShare(const Beam& piece, const sim::Tissue& tissue) {
-    const double bulk = tissue.bulkShare(), pressure = 1e-3; // k/h
-    const double modulus = 1 + bulk + 2.0 / 3;               // lambda + 2/3 mu
+    const double pressure = 1e-3;                            // k/h
+    const double modulus = 1 + tissue.bulkShare() + 2.0 / 3; // lambda + 2/3 mu
     LatticeProblem problem(piece.lattice);
     loadFaces(piece, problem, [&](int axis, double side) {
         glm::dvec3 inward(0);
         inward[axis] = -side * pressure;
         return inward;
     });
-    const Vector pressed = problem.solve(bulk);
+    const Vector pressed = problem.solve(tissue);
     // Of all the material: a rough surface layer, half of so small a piece, shares the load unevenly.
     double change = 0, volume = 0;
     for (const sim::LatticeCell& cell : piece.lattice.cells) {
         volume += cell.fill;
         for (int c = 0; c < 8; ++c) {
-            const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
+            const glm::ivec3 corner = sim::cornerOffset(c);
             const auto node = std::size_t(piece.lattice.nodeAt(cell.grid + corner));
             change += cell.fill * 0.25 * glm::dot(2.0 * glm::dvec3(corner) - 1.0, nodeVector(pressed, node));
         }
@@ -206,12 +198,12 @@ double shearShare(const Beam& beam, const sim::Tissue& tissue) {
                : axis == 1 ? glm::dvec3(side * stress, 0, 0)
                            : glm::dvec3(0);
     });
-    const Vector sheared = problem.solve(tissue.bulkShare());
+    const Vector sheared = problem.solve(tissue);
     return stress / (fit(beam, sheared, beam.turn[0])[2] + fit(beam, sheared, beam.turn[1])[1]);
 }
 
 double cantileverSagShare(const Beam& beam, const sim::Tissue& tissue) {
-    const double bulk = tissue.bulkShare(), mu = 1, young = 2 * (1 + tissue.poisson) * mu, weight = 1e-6;
+    const double mu = 1, young = 2 * (1 + tissue.poisson) * mu, weight = 1e-6;
     LatticeProblem problem(beam.lattice);
     const auto share = [&](std::size_t node) { return beam.lattice.massShare(node); };
     const auto inSection = [&](std::size_t node, double end) {
@@ -229,7 +221,7 @@ double cantileverSagShare(const Beam& beam, const sim::Tissue& tissue) {
             problem.push(node, weight * total * share(node) / clamped * beam.turn[1]);
         }
     }
-    const Vector moved = problem.solve(bulk);
+    const Vector moved = problem.solve(tissue);
     double sums[2] = {0, 0}, masses[2] = {0, 0}, places[2] = {0, 0};
     for (std::size_t node = 0; node < beam.lattice.nodeCount(); ++node)
         for (const int end : {0, 1})
@@ -264,7 +256,7 @@ double linearForceMismatch(const sim::SolverSetup& setup) {
             displacement[Eigen::Index(3 * node) + axis] = value;
             state.positions[node][axis] += value;
         }
-    const Vector force = latticeStiffness(lattice, setup.tissue.bulkShare()) * displacement;
+    const Vector force = latticeStiffness(lattice, setup.tissue) * displacement;
     const std::unique_ptr<sim::Solver> solver = sim::makeReferenceSolver(setup);
     solver->setState(state);
     solver->advance(1);

@@ -17,21 +17,13 @@ constexpr double kSolverTolerance = 1e-4; // of the finite elements: far below a
 } // namespace
 
 glm::dvec3 LatticeField::at(const glm::dvec3& world) const {
-    const glm::dvec3 q = lattice->toLattice(world) + glm::dvec3(lattice->centre);
-    const glm::ivec3 cell(glm::floor(q));
-    const glm::dvec3 t = q - glm::dvec3(cell);
     glm::dvec3 sum(0);
     double weights = 0;
-    for (int c = 0; c < 8; ++c) {
-        const glm::ivec3 corner(c & 1, (c >> 1) & 1, c >> 2);
-        const std::int64_t node = lattice->nodeAt(cell + corner);
-        if (node < 0)
+    for (const TrilinearCorner& corner : trilinearCorners(*lattice, lattice->toLattice(world))) {
+        if (corner.node < 0)
             continue;
-        double weight = 1;
-        for (int axis = 0; axis < 3; ++axis)
-            weight *= corner[axis] ? t[axis] : 1 - t[axis];
-        weights += weight;
-        sum += weight * displacements[std::size_t(node)];
+        weights += corner.weight;
+        sum += corner.weight * displacements[std::size_t(corner.node)];
     }
     return weights > 0 ? sum / weights : glm::dvec3(0);
 }
@@ -80,7 +72,7 @@ LatticeField latticeStatics(const sim::SolverSetup& setup) {
         if (setup.fixed[node])
             problem.hold(node);
     }
-    const Eigen::VectorXd moved = problem.solve(setup.tissue.bulkShare());
+    const Eigen::VectorXd moved = problem.solve(setup.tissue);
     LatticeField field{&lattice, {}};
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         field.displacements.push_back(h * nodeVector(moved, node));

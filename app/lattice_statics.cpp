@@ -1,6 +1,7 @@
 // See app/lattice_statics.h.
 #include "app/lattice_statics.h"
 
+#include "sim/cell_volumes.h"
 #include "sim/tissue_field.h"
 
 #include <Eigen/IterativeLinearSolvers>
@@ -13,14 +14,13 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-/// visit(first, second, direction from first to second, weight(first, d))
-template <class Weight, class Visit>
-void forEachSpring(const sim::Lattice& lattice, Weight weight, Visit visit) {
+template <class Visit> // visit(first, second, direction from first to second, weight)
+void forEachSpring(const sim::Lattice& lattice, const sim::TissueField& field, Visit visit) {
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         for (int d = 0; d < 18; d += 2)
             if (const std::int64_t other = lattice.neighbour(node, d); other >= 0) {
                 const glm::dvec3 offset(sim::kNeighbourOffsets[std::size_t(d)]);
-                visit(node, std::size_t(other), glm::normalize(offset), weight(node, d));
+                visit(node, std::size_t(other), glm::normalize(offset), field.springWeight(node, d));
             }
 }
 
@@ -30,41 +30,24 @@ void addDyad(Entries& entries, std::size_t a, std::size_t b, const glm::dvec3& u
             entries.emplace_back(int(3 * a) + i, int(3 * b) + j, u[i] * v[j]);
 }
 
-/// \param weight of the spring from a node in direction d \param bulk of a cell
-template <class Weight, class Bulk>
-Entries stiffnessEntries(const sim::Lattice& lattice, Weight weight, Bulk bulk) {
+Entries stiffnessEntries(const sim::Lattice& lattice, const sim::Tissue& tissue) {
+    const sim::TissueField field(lattice, tissue);
     Entries entries;
-    forEachSpring(lattice, weight, [&entries](std::size_t a, std::size_t b, const glm::dvec3& n, double w) {
+    forEachSpring(lattice, field, [&entries](std::size_t a, std::size_t b, const glm::dvec3& n, double w) {
         addDyad(entries, a, a, w * n, n);
         addDyad(entries, b, b, w * n, n);
         addDyad(entries, a, b, -w * n, n);
         addDyad(entries, b, a, -w * n, n);
     });
     for (std::size_t i = 0; i < lattice.cells.size(); ++i) {
-        const sim::LatticeCell& cell = lattice.cells[i];
-        const double share = bulk(i) * cell.fill / 255.0;
+        const sim::CellCorners corners = sim::cornersOf(lattice, lattice.cells[i]);
+        const double share = field.materialOf(i).bulk * lattice.cells[i].fill / 255.0;
         for (int a = 0; a < 8 && share > 0; ++a)
-            for (int b = 0; b < 8; ++b) {
-                const auto corner = [](int c) { return glm::ivec3(c & 1, (c >> 1) & 1, c >> 2); };
-                const auto node = [&](int c) { return std::size_t(lattice.nodeAt(cell.grid + corner(c))); };
-                const auto gradient = [&](int c) { return 0.25 * (2.0 * glm::dvec3(corner(c)) - 1.0); };
-                addDyad(entries, node(a), node(b), share * gradient(a), gradient(b));
-            }
+            for (int b = 0; b < 8; ++b)
+                addDyad(entries, corners[std::size_t(a)], corners[std::size_t(b)],
+                        share / 16 * sim::cornerSign(a), sim::cornerSign(b));
     }
     return entries;
-}
-
-Entries stiffnessEntries(const sim::Lattice& lattice, double bulk) {
-    return stiffnessEntries(
-        lattice, [&](std::size_t node, int d) { return lattice.springWeight(node, d); },
-        [bulk](std::size_t) { return bulk; });
-}
-
-Entries stiffnessEntries(const sim::Lattice& lattice, const sim::Tissue& tissue) {
-    const sim::TissueField field(lattice, tissue);
-    return stiffnessEntries(
-        lattice, [&](std::size_t node, int d) { return field.springWeight(node, d); },
-        [&](std::size_t cell) { return field.materialOf(cell).bulk; });
 }
 
 Matrix matrixOf(const Entries& entries, std::size_t nodes) {
@@ -80,12 +63,23 @@ glm::dvec3 nodeVector(const Vector& v, std::size_t node) {
     return {v[Eigen::Index(3 * node)], v[Eigen::Index(3 * node + 1)], v[Eigen::Index(3 * node + 2)]};
 }
 
-Matrix latticeStiffness(const sim::Lattice& lattice, double bulk) {
-    return matrixOf(stiffnessEntries(lattice, bulk), lattice.nodeCount());
-}
-
 Matrix latticeStiffness(const sim::Lattice& lattice, const sim::Tissue& tissue) {
     return matrixOf(stiffnessEntries(lattice, tissue), lattice.nodeCount());
+}
+
+std::array<TrilinearCorner, 8> trilinearCorners(const sim::Lattice& lattice, const glm::dvec3& place) {
+    const glm::dvec3 q = place + glm::dvec3(lattice.centre); // grid coordinates
+    const glm::ivec3 cell(glm::floor(q));
+    const glm::dvec3 t = q - glm::dvec3(cell);
+    std::array<TrilinearCorner, 8> corners;
+    for (int c = 0; c < 8; ++c) {
+        const glm::ivec3 corner = sim::cornerOffset(c);
+        double weight = 1;
+        for (int axis = 0; axis < 3; ++axis)
+            weight *= corner[axis] ? t[axis] : 1 - t[axis];
+        corners[std::size_t(c)] = {lattice.nodeAt(cell + corner), weight};
+    }
+    return corners;
 }
 
 LatticeProblem::LatticeProblem(const sim::Lattice& lattice)
@@ -111,15 +105,8 @@ void LatticeProblem::prescribe(std::size_t node, const glm::dvec3& direction, do
     push(node, grip * displacement * direction);
 }
 
-Vector LatticeProblem::solve(double bulk) const {
-    return solve(stiffnessEntries(lattice_, bulk));
-}
-
 Vector LatticeProblem::solve(const sim::Tissue& tissue) const {
-    return solve(stiffnessEntries(lattice_, tissue));
-}
-
-Vector LatticeProblem::solve(Entries entries) const {
+    Entries entries = stiffnessEntries(lattice_, tissue);
     entries.insert(entries.end(), extra_.begin(), extra_.end());
     Vector load = load_;
     // Held nodes drop out: neither their rows nor their columns stay, but for a one on the diagonal.

@@ -11,6 +11,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace serosa::app {
@@ -18,10 +20,17 @@ namespace serosa::app {
 /// The three unknowns of a node.
 glm::dvec3 nodeVector(const Eigen::VectorXd& v, std::size_t node);
 
-/// \param bulk (lambda - mu) / mu of the volumetric term
-Eigen::SparseMatrix<double> latticeStiffness(const sim::Lattice& lattice, double bulk);
-/// Of several materials, each at the first slope of its curve; k is that of material 0.
+/// Each material at the first slope of its curve; k is that of material 0.
 Eigen::SparseMatrix<double> latticeStiffness(const sim::Lattice& lattice, const sim::Tissue& tissue);
+
+/// A corner of the cell around a point: its node, -1 where there is none, and its weight in trilinear
+/// interpolation.
+struct TrilinearCorner {
+    std::int64_t node = -1;
+    double weight = 0;
+};
+/// \param place in lattice units. The weights sum to 1.
+std::array<TrilinearCorner, 8> trilinearCorners(const sim::Lattice& lattice, const glm::dvec3& place);
 
 /// A linear static problem: loads, nodes that are held, and stiff springs that prescribe displacements along
 /// directions.
@@ -38,12 +47,9 @@ public:
     void prescribe(std::size_t node, const glm::dvec3& direction, double displacement);
 
     /// Displacements in h, by conjugate gradients to 1e-8 of the load.
-    Eigen::VectorXd solve(double bulk) const;
     Eigen::VectorXd solve(const sim::Tissue& tissue) const;
 
 private:
-    Eigen::VectorXd solve(std::vector<Eigen::Triplet<double>> entries) const;
-
     const sim::Lattice& lattice_;
     std::vector<Eigen::Triplet<double>> extra_; // stiffness beyond the lattice's
     Eigen::VectorXd load_;

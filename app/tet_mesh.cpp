@@ -4,6 +4,7 @@
 #include "app/tet_mesh.h"
 
 #include "base/child_process.h"
+#include "sim/node_depths.h"
 #include "sim/triangle_tree.h"
 
 #include <algorithm>
@@ -78,23 +79,6 @@ Result<std::vector<std::array<double, Columns>>> readRows(const fs::path& file) 
     return rows;
 }
 
-class InsideTest {
-public:
-    explicit InsideTest(const PlaneCut& cut)
-        : tree_(cut.whole.positions, cut.whole.faces), height_(cut.height),
-          reach_(2 * glm::distance(cut.whole.lowest(), cut.whole.highest())) {}
-    bool operator()(const glm::dvec3& p) const {
-        int crossings = 0; // of the surface, of either sense
-        tree_.allHits(p, glm::normalize(glm::dvec3(0.37, 0.61, 0.71)), reach_,
-                      [&](const sim::TriangleTree::Hit& hit) { crossings += hit.front ? -1 : 1; });
-        return p.y > height_ && crossings > 0;
-    }
-
-private:
-    sim::TriangleTree tree_;
-    double height_, reach_;
-};
-
 double signedVolume(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
     return glm::dot(b - a, glm::cross(c - a, d - a)) / 6;
 }
@@ -168,7 +152,8 @@ Result<TetMesh> fillWithTets(const PlaneCut& cut, double largestVolume, double s
         return Error{"solid.1.node: fewer nodes than the surface has: tetgen was cut short", exitChildFailed};
     // As they were given, without the rounding to millimetres and back.
     std::copy(cut.above.positions.begin(), cut.above.positions.end(), corners.begin());
-    const InsideTest inside(cut);
+    const sim::TriangleTree tree(cut.whole.positions, cut.whole.faces);
+    const double reach = 2 * glm::distance(cut.whole.lowest(), cut.whole.highest());
     std::vector<std::array<std::uint32_t, 4>> kept;
     for (const std::array<double, 4>& row : tets) {
         std::array<std::uint32_t, 4> tet;
@@ -179,7 +164,7 @@ Result<TetMesh> fillWithTets(const PlaneCut& cut, double largestVolume, double s
             tet[i] = std::uint32_t(row[i]);
             centre += 0.25 * corners[tet[i]];
         }
-        if (inside(centre))
+        if (centre.y > cut.height && sim::isInside(tree, centre, reach))
             kept.push_back(tet);
     }
     TetMesh mesh = quadraticTets(std::move(corners), kept);

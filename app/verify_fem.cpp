@@ -4,7 +4,7 @@
 // by.
 #include "app/fem_comparison.h"
 #include "app/fem_picture.h"
-#include "app/organ_setup.h"
+#include "app/material_checks.h"
 #include "app/verify.h"
 #include "models/phantom.h"
 #include "sim/cpu_solver.h"
@@ -21,7 +21,8 @@ using sim::Lattice;
 using sim::SolverSetup;
 
 constexpr double kStrain = 0.01; // the largest of the finite-element solution
-constexpr double kLimit = 0.05;  // mean displacement error over mean displacement
+constexpr double kPoisson = 0.25;
+constexpr double kLimit = 0.05; // mean displacement error over mean displacement
 
 struct Organ {
     std::string name;
@@ -36,16 +37,9 @@ Result<Organ> makeOrgan(const std::string& name, std::size_t faces, double heldS
     return organ;
 }
 
-sim::Tissue tissueOf(const VerifyOptions& options) {
-    sim::Tissue tissue;
-    if (options.inject.fault == Fault::stiffness)
-        tissue.young *= options.inject.factor;
-    return tissue;
-}
-
 /// Of the tissue without an injected fault. \param edge of the largest regular tetrahedron, m
 Result<FemModel> elementsOf(const Organ& organ, double edge) {
-    const sim::Tissue tissue;
+    const sim::Tissue tissue = tissueOf({}, kPoisson);
     return makeFemModel(organ.cut, {tissue.young, tissue.poisson}, tissue.density,
                         std::pow(edge, 3) / (6 * std::sqrt(2.0)));
 }
@@ -61,7 +55,7 @@ SolverSetup setupOf(const Organ& organ, const Lattice& lattice, const VerifyOpti
                     const glm::dvec3& acceleration) {
     SolverSetup setup;
     setup.lattice = &lattice;
-    setup.tissue = tissueOf(options);
+    setup.tissue = tissueOf(options, kPoisson);
     setup.gravity = acceleration;
     setup.fixed = nodesBelow(lattice, organ.cut.height);
     return setup;

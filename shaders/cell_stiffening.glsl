@@ -1,6 +1,6 @@
 // A cell's energy and its factor of stiffening: twin of Stiffening::factors (sim/stiffening.h). Included by
 // cell_terms.glsl where SRS_STIFFENING is defined.
-uniform float u_cellSprings[SRS_MATERIALS * 9]; // MaterialShares::spring, by material and direction pair
+uniform float u_springs[SRS_MATERIALS * 9]; // MaterialShares::spring, by material and direction pair
 uniform float u_youngs[SRS_MATERIALS];          // E h / k
 uniform float u_bends[SRS_MATERIALS];           // MaterialShares::bend
 // Turns of the stress-strain curves, SRS_CURVE_BREAKS a material: strains, and what the slope gains there (0: none).
@@ -21,7 +21,7 @@ float springEnergy(uint material, uint bits[8], vec3 p[8]) {
     float energy = 0.0;
     int first = int(material) * 9;
 #define SPRING(pair, d, from, to, rest2)                                                                               \
-    energy += u_cellSprings[first + pair] * springTerm(bits[from], d, p[from], p[to], rest2);
+    energy += u_springs[first + pair] * springTerm(bits[from], d, p[from], p[to], rest2);
     SPRING(0, 0, 0, 1, 1.0) SPRING(0, 0, 2, 3, 1.0) SPRING(0, 0, 4, 5, 1.0) SPRING(0, 0, 6, 7, 1.0)
     SPRING(1, 2, 0, 2, 1.0) SPRING(1, 2, 1, 3, 1.0) SPRING(1, 2, 4, 6, 1.0) SPRING(1, 2, 5, 7, 1.0)
     SPRING(2, 4, 0, 4, 1.0) SPRING(2, 4, 1, 5, 1.0) SPRING(2, 4, 2, 6, 1.0) SPRING(2, 4, 3, 7, 1.0)
@@ -35,14 +35,14 @@ float springEnergy(uint material, uint bits[8], vec3 p[8]) {
     return 0.125 * energy;
 }
 
+bool hasCurve(uint material) { return u_breakGains[int(material) * SRS_CURVE_BREAKS] != 0.0; }
+
 /// Stress of the material's curve over that of the springs alone. \param energy of the cell over its fill, in units of k h^2
 float stiffening(uint material, float energy) {
     energy *= 2.0 / u_youngs[material];
     float strain = sqrt(energy), bend = u_bends[material], factor = 1.0;
     for (int i = 0; i < SRS_STRAIN_ITERATIONS; ++i) // MaterialShares::tensionStrain
         strain -= (strain * strain * (1.0 + bend * strain) - energy) / max(strain * (2.0 + 3.0 * bend * strain), 1e-30);
-    if (u_breakGains[int(material) * SRS_CURVE_BREAKS] == 0.0) // no curve
-        return 1.0;
     for (int i = 0; i < SRS_CURVE_BREAKS; ++i) {
         int at = int(material) * SRS_CURVE_BREAKS + i;
         if (strain > u_breakStrains[at])

@@ -17,7 +17,7 @@ struct CellTerm {
     vec4 x, y, z; // columns; w: J, the factor, nothing
 };
 
-// The connections that stay inside the cell from its corner (directionsInCell in sim/volume_term.cpp).
+// The connections that stay inside the cell from its corner (directionsInCell in sim/cell_volumes.cpp).
 const uint kInside[8] = uint[8](SRS_IN_CELL_0, SRS_IN_CELL_1, SRS_IN_CELL_2, SRS_IN_CELL_3, SRS_IN_CELL_4,
                                 SRS_IN_CELL_5, SRS_IN_CELL_6, SRS_IN_CELL_7);
 
@@ -51,7 +51,8 @@ CellTerm cellTerm(ivec2 texel) {
     float soft = min(1.0, SRS_VOLUME_STIFFENING / max(size, 1e-12)), q = soft * soft;
     float bulk = whole ? u_bulks[material] : 0.0, recovery = whole ? u_recoveries[material] : 0.0, factor = 1.0;
 #ifdef SRS_STIFFENING
-    factor = stiffening(material, springEnergy(material, bits, p) + 0.5 * bulk * q * change * change);
+    if (hasCurve(material))
+        factor = stiffening(material, springEnergy(material, bits, p) + 0.5 * bulk * q * change * change);
     bulk *= factor;
 #endif
     float pressure = fill * q * (bulk * change - recovery * collapse);
@@ -59,11 +60,11 @@ CellTerm cellTerm(ivec2 texel) {
     y *= pressure;
     z *= pressure;
     if (soft < 1.0) { // dq/dF
-        float turn = -2.0 * fill * q / size * (bulk * change * change + recovery * collapse * collapse);
+        float softened = -2.0 * fill * q / size * (bulk * change * change + recovery * collapse * collapse);
         float aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
-        x += turn * ((bb + cc) * a - ab * b - ca * c);
-        y += turn * ((cc + aa) * b - bc * c - ab * a);
-        z += turn * ((aa + bb) * c - ca * a - bc * b);
+        x += softened * ((bb + cc) * a - ab * b - ca * c);
+        y += softened * ((cc + aa) * b - bc * c - ab * a);
+        z += softened * ((aa + bb) * c - ca * a - bc * b);
     }
     term.x = vec4(x, J);
     term.y = vec4(y, factor);

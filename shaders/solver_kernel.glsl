@@ -47,8 +47,8 @@ void addSpring(float weight, float damping, float rest, float rest2, ivec2 texel
 
 float connected(uint bits, int d) { return float((bits >> d) & 1u); }
 
-// Springs of one direction pair: weights from `c`, damping from `damped` where damping times differ.
-#ifdef SRS_VARIED_DAMPING
+// Springs of one direction pair: weights from `c`, damping from `damped` where dampers have weights of their own.
+#ifdef SRS_OWN_DAMPERS
 #define DAMPING(sum) sum(damped)
 #else
 #define DAMPING(sum) sum(c) * u_damping
@@ -67,7 +67,7 @@ float connected(uint bits, int d) { return float((bits >> d) & 1u); }
 #else
 #define STRETCHED(cells) cells
 #endif
-#ifdef SRS_VARIED_DAMPING
+#ifdef SRS_OWN_DAMPERS
 #define WEIGH                                                                                                          \
     c = STRETCHED(springs);                                                                                            \
     damped = timesDampingTimes(springs);

@@ -27,7 +27,7 @@ void setMaterials(gpu::Program& program, const Tissue& tissue) {
     program.set("u_recoveries", std::span<const float>(recoveries));
     if (!tissue.stiffens())
         return;
-    program.set("u_cellSprings", std::span<const float>(springs));
+    program.set("u_springs", std::span<const float>(springs));
     program.set("u_youngs", std::span<const float>(youngs));
     program.set("u_bends", std::span<const float>(bends));
     program.set("u_breakStrains", std::span<const float>(strains));

@@ -1,5 +1,5 @@
 #pragma once
-// The pass over an organ's cells before each step, where the tissue asks for it (shaders/cell_terms.glsl):
+// The pass over an organ's cells before each step, where Tissue::needsCellPass() (shaders/cell_terms.glsl):
 // the volumetric term and stiffening, for every solver whose state lies in StateTextures.
 
 #include "base/result.h"
@@ -15,8 +15,6 @@ namespace serosa::sim {
 /// Of one StateTextures. Needs a current context.
 class CellPass {
 public:
-    static bool needed(const Tissue& tissue) { return tissue.volumetric() || tissue.stiffens(); }
-
     /// Makes program and textures, and lets `step` read what the pass writes.
     /// \param defines kernelDefines of the step \param compute a compute pass; else a fragment pass
     /// Errors: of the shaders.

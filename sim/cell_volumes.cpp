@@ -1,6 +1,8 @@
 // See sim/cell_volumes.h.
 #include "sim/cell_volumes.h"
 
+#include "shaders/shared_constants.h"
+
 #include <algorithm>
 
 namespace serosa::sim {
@@ -8,9 +10,21 @@ namespace serosa::sim {
 CellCorners cornersOf(const Lattice& lattice, const LatticeCell& cell) {
     CellCorners corners;
     for (int c = 0; c < 8; ++c)
-        corners[std::size_t(c)] =
-            std::uint32_t(lattice.nodeAt(cell.grid + glm::ivec3(c & 1, (c >> 1) & 1, (c >> 2) & 1)));
+        corners[std::size_t(c)] = std::uint32_t(lattice.nodeAt(cell.grid + cornerOffset(c)));
     return corners;
+}
+
+std::uint32_t directionsInCell(int corner) {
+    std::uint32_t mask = 0;
+    for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
+        bool inside = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int step = kNeighbourOffsets[std::size_t(d)][axis];
+            inside = inside && (step == 0 || (step < 0) == (((corner >> axis) & 1) != 0));
+        }
+        mask |= inside ? 1u << d : 0u;
+    }
+    return mask;
 }
 
 glm::dmat3 meanGradient(const CellCorners& corners, const std::vector<glm::dvec3>& x) {

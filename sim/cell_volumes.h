@@ -19,6 +19,8 @@ CellCorners cornersOf(const Lattice& lattice, const LatticeCell& cell);
 inline glm::dvec3 cornerSign(int corner) {
     return {corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1};
 }
+/// The directions of the 18 that stay inside a cell from its corner c: 3 edges and 3 face diagonals.
+std::uint32_t directionsInCell(int corner);
 /// F = sum over the corners c of x_c (cornerSign(c)/4)^T, x in lattice units. Columns dx/dX, dx/dY, dx/dZ.
 glm::dmat3 meanGradient(const CellCorners& corners, const std::vector<glm::dvec3>& x);
 

@@ -74,7 +74,7 @@ private:
         const gpu::ShaderLibrary library;
         SEROSA_ASSIGN(stepProgram_, StepProgram::create(library, {"solver_step.comp"}, defines, options_));
         SEROSA_ASSIGN(graspProgram_, gpu::Program::create(library, {"grasp.comp"}));
-        if (CellPass::needed(setup_.tissue))
+        if (setup_.tissue.needsCellPass())
             SEROSA_TRY(cellPass_.initialize(setup_, textures_, kernelDefines(setup_, layout, options_),
                                             stepProgram_, true));
         setConstants();
@@ -103,7 +103,7 @@ private:
 
     void takeStep(bool last) {
         setTools();
-        if (CellPass::needed(setup_.tissue))
+        if (setup_.tissue.needsCellPass())
             cellPass_.run(textures_);
         setStepInputs(options_.useTexelFetch);
         const std::size_t to = std::size_t(nextHalf());

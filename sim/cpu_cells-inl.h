@@ -162,16 +162,17 @@ HWY_INLINE Vec stiffeningOf(Lanes d, const CpuCellPass& pass, std::size_t block,
 constexpr std::size_t kTileSlots = 128;
 constexpr std::size_t kTileStride = kTileSlots + kMostLanes;
 
-/// sum += turn (weight own - w2 second - w3 third)
-HWY_INLINE void addTurn(Vec turn, Vec own, Vec weight, Vec second, Vec w2, Vec third, Vec w3, Vec& sum) {
+/// sum += softened (weight own - w2 second - w3 third)
+HWY_INLINE void addSoftened(Vec softened, Vec own, Vec weight, Vec second, Vec w2, Vec third, Vec w3,
+                            Vec& sum) {
     const Vec change = hn::NegMulAdd(w3, third, hn::NegMulAdd(w2, second, hn::Mul(weight, own)));
-    sum = hn::MulAdd(turn, change, sum);
+    sum = hn::MulAdd(softened, change, sum);
 }
 
-/// One block of cells: the columns of -f dW/dF / 4 to `columns` (nine, kTileStride apart), the gains to
-/// the slots.
+/// One block of cells: the columns of -f dW/dF / 4 to `columns` (nine, kTileStride apart), the
+/// stiffened constants to the slots.
 template <bool kVolume, bool kStiffens>
-HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, bool writeGains,
+HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, bool writeConstants,
                           float* HWY_RESTRICT columns) {
     const std::size_t slot = pass.first + block * hn::Lanes(d);
     const Corners corners(slot, pass.rows + block * 8);
@@ -200,8 +201,9 @@ HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, b
         if constexpr (kVolume) // none in a cell that a cut runs through
             volume = hn::IfThenElseZero(hn::Gt(hn::Load(d, pass.bulk + slot), zero), volume);
         factor = stiffeningOf(d, pass, block, slot, corners, volume);
-        for (int pair = 0; writeGains && pair < pass.pairs; ++pair)
-            hn::Store(hn::Mul(factor, hn::Load(d, pass.constants[pair] + slot)), d, pass.gains[pair] + slot);
+        for (int pair = 0; writeConstants && pair < pass.pairs; ++pair)
+            hn::Store(hn::Mul(factor, hn::Load(d, pass.constants[pair] + slot)), d,
+                      pass.stiffened[pair] + slot);
     }
     if constexpr (kVolume) {
         const Vec bulk = hn::Mul(hn::Load(d, pass.bulk + slot), factor);
@@ -215,22 +217,22 @@ HWY_INLINE void cellBlock(Lanes d, const CpuCellPass& pass, std::size_t block, b
         if (!hn::AllFalse(d, squeezed)) { // dq/dF
             const Vec energy =
                 hn::MulAdd(hn::Mul(bulk, change), change, hn::Mul(hn::Mul(recovery, collapse), collapse));
-            const Vec turn = hn::IfThenElseZero(
+            const Vec softened = hn::IfThenElseZero(
                 squeezed, hn::Mul(hn::Div(hn::Mul(hn::Set(d, -2.0f), share), size), energy));
             const Vec aa = square(ax, ay, az), bb = square(bx, by, bz), cc = square(cx, cy, cz);
             const Vec ab = hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx))),
                       bc = hn::MulAdd(bz, cz, hn::MulAdd(by, cy, hn::Mul(bx, cx))),
                       ca = hn::MulAdd(cz, az, hn::MulAdd(cy, ay, hn::Mul(cx, ax)));
             const Vec notA = hn::Add(bb, cc), notB = hn::Add(cc, aa), notC = hn::Add(aa, bb);
-            addTurn(turn, ax, notA, bx, ab, cx, ca, xx);
-            addTurn(turn, ay, notA, by, ab, cy, ca, xy);
-            addTurn(turn, az, notA, bz, ab, cz, ca, xz);
-            addTurn(turn, bx, notB, cx, bc, ax, ab, yx);
-            addTurn(turn, by, notB, cy, bc, ay, ab, yy);
-            addTurn(turn, bz, notB, cz, bc, az, ab, yz);
-            addTurn(turn, cx, notC, ax, ca, bx, bc, zx);
-            addTurn(turn, cy, notC, ay, ca, by, bc, zy);
-            addTurn(turn, cz, notC, az, ca, bz, bc, zz);
+            addSoftened(softened, ax, notA, bx, ab, cx, ca, xx);
+            addSoftened(softened, ay, notA, by, ab, cy, ca, xy);
+            addSoftened(softened, az, notA, bz, ab, cz, ca, xz);
+            addSoftened(softened, bx, notB, cx, bc, ax, ab, yx);
+            addSoftened(softened, by, notB, cy, bc, ay, ab, yy);
+            addSoftened(softened, bz, notB, cz, bc, az, ab, yz);
+            addSoftened(softened, cx, notC, ax, ca, bx, bc, zx);
+            addSoftened(softened, cy, notC, ay, ca, by, bc, zy);
+            addSoftened(softened, cz, notC, az, ca, bz, bc, zz);
         }
         hn::StoreU(xx, d, columns);
         hn::StoreU(xy, d, columns + kTileStride);

@@ -1,8 +1,7 @@
 // See sim/cpu_cells.h.
 #include "sim/cpu_cells.h"
 
-#include "sim/cell_volumes.h"
-#include "sim/volume_term.h"
+#include "sim/pieces.h"
 
 namespace serosa::sim {
 
@@ -59,7 +58,7 @@ void CpuCells::addCurves(const Tissue& tissue) {
             constants[slotOf(lattice_.cells[cell])] = float(
                 lattice_.cells[cell].fill / (4 * 255.0) * field_.materialOf(cell).spring[std::size_t(pair)]);
         pass_.constants[pair] = constants;
-        pass_.gains[pair] = addArray();
+        pass_.stiffened[pair] = addArray();
     }
     for (const MaterialShares& material : field_.materials())
         curves_.push_back(curveOf(material));
@@ -84,15 +83,12 @@ void CpuCells::connect(const std::vector<std::uint32_t>& connections) {
                                                        rowBit({0, 0, -1}, kRowBelowZ) |
                                                        rowBit({0, -1, 0}, kRowBelowY);
     }
-    for (std::size_t i = 0; pass_.bulk && i < lattice_.cells.size(); ++i) {
+    if (!pass_.bulk)
+        return;
+    const std::vector<bool> whole = wholeCells(lattice_, connections);
+    for (std::size_t i = 0; i < lattice_.cells.size(); ++i) {
         const LatticeCell& cell = lattice_.cells[i];
-        const CellCorners corners = cornersOf(lattice_, cell);
-        bool whole = true;
-        for (int c = 0; c < 8; ++c) {
-            const std::uint32_t inside = directionsInCell(c);
-            whole = whole && (connections[corners[std::size_t(c)]] & inside) == inside;
-        }
-        const double fill = whole ? cell.fill / 255.0 : 0;
+        const double fill = whole[i] ? cell.fill / 255.0 : 0;
         bulk_[slotOf(cell)] = float(fill * field_.materialOf(i).bulk);
         recovery_[slotOf(cell)] = float(fill * field_.materialOf(i).recovery);
     }
@@ -108,7 +104,7 @@ CpuCellPass CpuCells::pass(const VectorArray& positions) const {
 void CpuCells::enter(CpuStep& step) const {
     step.bits = pass_.bits;
     std::copy(std::begin(pass_.rowForces), std::end(pass_.rowForces), std::begin(step.rowForces));
-    std::copy(std::begin(pass_.gains), std::end(pass_.gains), std::begin(step.gains));
+    std::copy(std::begin(pass_.stiffened), std::end(pass_.stiffened), std::begin(step.stiffened));
 }
 
 } // namespace serosa::sim

@@ -1,7 +1,7 @@
 #pragma once
-// Cells of the CPU solver, for tissue with a volumetric term (sim/volume_term.h) or that stiffens
-// (sim/stiffening.h): what the passes of sim/cpu_cells-inl.h read and write. Cells are at the slot of their
-// lowest corner, so that a vector of cells finds its corners as a vector of nodes finds its neighbours.
+// Cells of the CPU solver, where Tissue::needsCellPass(): what the passes of sim/cpu_cells-inl.h read and
+// write. Cells are at the slot of their lowest corner, so that a vector of cells finds its corners as a
+// vector of nodes finds its neighbours.
 
 #include "sim/cpu_arrays.h"
 #include "sim/cpu_kernel.h"
@@ -15,9 +15,6 @@ namespace serosa::sim {
 
 class CpuCells {
 public:
-    /// Does a step of this tissue need passes over cells?
-    static bool neededBy(const Tissue& tissue) { return tissue.volumetric() || tissue.stiffens(); }
-
     /// With the lattice's own connections. Keeps references to the lattice, the layout and the field.
     CpuCells(const Lattice& lattice, const CpuLayout& layout, const TissueField& field, const Tissue& tissue);
 

@@ -36,8 +36,9 @@ HWY_INLINE void addVolume(Lanes d, const CpuStep& step, std::size_t slot, const 
     fz = hn::Add(fz, hn::Load(d, step.rowForces[11] + slot));
 }
 
-HWY_INLINE Vec gainOf(Lanes d, const float* HWY_RESTRICT gains, std::size_t at, hn::Mask<Lanes> there) {
-    return hn::IfThenElseZero(there, hn::LoadU(d, gains + at));
+HWY_INLINE Vec constantAt(Lanes d, const float* HWY_RESTRICT constants, std::size_t at,
+                          hn::Mask<Lanes> there) {
+    return hn::IfThenElseZero(there, hn::LoadU(d, constants + at));
 }
 
 /// The 18 weights of each lane, as CpuStep::weights. Sums go over x, then y, then z, as seen from the grid:
@@ -52,15 +53,15 @@ HWY_INLINE void weighSprings(Lanes d, const CpuStep& step, std::size_t slot, con
     const std::size_t atYZ = slotBeside(slot, rows, 0, kyz), atZ = slotBeside(slot, rows, 0, kz),
                       atY = slotBeside(slot, rows, 0, ky);
     // Of the cell towards -x (a) or +x (A), -y (b) or +y (B), -z (c) or +z (C), by direction pair.
-#define SEROSA_GAINS(pair) step.gains[kFibres ? pair : 0]
-#define SEROSA_abc(pair) gainOf(d, SEROSA_GAINS(pair), atYZ - 1, yz)
-#define SEROSA_Abc(pair) gainOf(d, SEROSA_GAINS(pair), atYZ, yz)
-#define SEROSA_aBc(pair) gainOf(d, SEROSA_GAINS(pair), atZ - 1, z)
-#define SEROSA_ABc(pair) gainOf(d, SEROSA_GAINS(pair), atZ, z)
-#define SEROSA_abC(pair) gainOf(d, SEROSA_GAINS(pair), atY - 1, y)
-#define SEROSA_AbC(pair) gainOf(d, SEROSA_GAINS(pair), atY, y)
-#define SEROSA_aBC(pair) hn::LoadU(d, SEROSA_GAINS(pair) + slot - 1)
-#define SEROSA_ABC(pair) hn::Load(d, SEROSA_GAINS(pair) + slot)
+#define SEROSA_CONSTANTS(pair) step.stiffened[kFibres ? pair : 0]
+#define SEROSA_abc(pair) constantAt(d, SEROSA_CONSTANTS(pair), atYZ - 1, yz)
+#define SEROSA_Abc(pair) constantAt(d, SEROSA_CONSTANTS(pair), atYZ, yz)
+#define SEROSA_aBc(pair) constantAt(d, SEROSA_CONSTANTS(pair), atZ - 1, z)
+#define SEROSA_ABc(pair) constantAt(d, SEROSA_CONSTANTS(pair), atZ, z)
+#define SEROSA_abC(pair) constantAt(d, SEROSA_CONSTANTS(pair), atY - 1, y)
+#define SEROSA_AbC(pair) constantAt(d, SEROSA_CONSTANTS(pair), atY, y)
+#define SEROSA_aBC(pair) hn::LoadU(d, SEROSA_CONSTANTS(pair) + slot - 1)
+#define SEROSA_ABC(pair) hn::Load(d, SEROSA_CONSTANTS(pair) + slot)
 #define SEROSA_EDGE(direction, c0, c1, c2, c3)                                                               \
     hn::Store(hn::IfThenElseZero(lanesWith(d, bits, 1u << direction),                                        \
                                  hn::Add(hn::Add(SEROSA_##c0(direction / 2), SEROSA_##c1(direction / 2)),    \
@@ -100,7 +101,7 @@ HWY_INLINE void weighSprings(Lanes d, const CpuStep& step, std::size_t slot, con
 #undef SEROSA_aBc
 #undef SEROSA_Abc
 #undef SEROSA_abc
-#undef SEROSA_GAINS
+#undef SEROSA_CONSTANTS
 }
 
 } // namespace serosa::sim::HWY_NAMESPACE

@@ -155,7 +155,7 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
                double* HWY_RESTRICT impulses) {
     const Lanes d;
     const std::size_t lanes = hn::Lanes(d);
-    HWY_ALIGN float stiffened[kCells ? SRS_NEIGHBOURS * kMostLanes : 1];
+    HWY_ALIGN float stiffWeights[kCells ? SRS_NEIGHBOURS * kMostLanes : 1];
     for (std::size_t block = firstBlock; block < lastBlock; ++block) {
         const std::size_t slot = step.first + block * lanes;
         const float* weights = step.weights + block * SRS_NEIGHBOURS * lanes;
@@ -163,12 +163,12 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
             kDamping == Damping::own ? step.dampers + block * SRS_NEIGHBOURS * lanes : nullptr;
         const std::int32_t* rows = step.rows + block * 8;
         if constexpr (kCells) {
-            if (step.gains[0]) {
-                if (step.gains[1])
-                    weighSprings<true>(d, step, slot, rows, stiffened);
+            if (step.stiffened[0]) {
+                if (step.stiffened[1])
+                    weighSprings<true>(d, step, slot, rows, stiffWeights);
                 else
-                    weighSprings<false>(d, step, slot, rows, stiffened);
-                weights = stiffened;
+                    weighSprings<false>(d, step, slot, rows, stiffWeights);
+                weights = stiffWeights;
             }
         }
         const Vec x = hn::Load(d, step.positions[0] + slot), y = hn::Load(d, step.positions[1] + slot),

@@ -38,7 +38,7 @@ struct CpuStep {
     // What a pass over the cells left (CpuCellPass); null: there is none.
     const std::uint32_t* bits;  // its connections, and kRow bits
     const float* rowForces[12]; // of the volumetric term, k h
-    const float* gains[9];      // of cells that stiffen, instead of `weights`; from [1] on only with fibres
+    const float* stiffened[9];  // constants of cells, instead of `weights`; from [1] on only with fibres
 
     float gravity[3]; // dt^2 g / h
     bool withNormals; // write eq. 3
@@ -74,10 +74,10 @@ struct CpuCellPass {
     float* rowForces[12];
 
     // Stiffening; pairs = 0: there is none.
-    int pairs;                       // of gains: 1, or with fibres 9
+    int pairs;                       // of constants: 1, or with fibres 9
     float* stretches[9];             // energy of the spring in direction 2 i, in a cell of constant k; k h^2
     const float* constants[9];       // spring constant of a cell's edges along pair i; 0: no cell
-    float* gains[9];                 // the same as the cell has stiffened
+    float* stiffened[9];             // the same as the cell has stiffened
     const std::uint32_t* material;   // of the cell
     const std::uint32_t* stiffening; // a block: materials with a curve among its cells, a bit each
     const CpuCurve* curves;          // a material
@@ -91,7 +91,7 @@ struct CpuKernel {
     void (*step)(const CpuStep& step, std::size_t first, std::size_t last, double* impulses);
     /// Writes the stretches of the blocks first .. last - 1; only where cells stiffen.
     void (*stretch)(const CpuCellPass& pass, std::size_t first, std::size_t last);
-    /// Then the gains and the forces of their cells: needs the stretches of all blocks.
+    /// Then the stiffened constants and the forces of their cells: needs the stretches of all blocks.
     void (*cells)(const CpuCellPass& pass, std::size_t first, std::size_t last);
 };
 

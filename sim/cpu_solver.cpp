@@ -48,9 +48,9 @@ public:
             depth_[slot] = float(lattice.restDepth(node));
             acceleration_[slot] = fixed ? 0.0F : float(acceleration / mass);
         }
-        if (ownDampers(setup.tissue))
+        if (setup.tissue.ownDampers())
             dampers_.emplace(layout_.blocks() * SRS_NEIGHBOURS * layout_.lanes);
-        if (CpuCells::neededBy(setup.tissue))
+        if (setup.tissue.needsCellPass())
             cells_.emplace(lattice, layout_, field_, setup.tissue);
         setWeights(lattice.connections);
         setState(restState(lattice));
@@ -118,15 +118,6 @@ public:
 
 private:
     std::size_t slotOf(std::size_t node) const { return std::size_t(layout_.slotOfNode[node]); }
-
-    /// Do springs need damping constants of their own, beside weights?
-    static bool ownDampers(const Tissue& tissue) {
-        return tissue.damped() &&
-               (tissue.stiffens() ||
-                std::any_of(tissue.others.begin(), tissue.others.end(), [&tissue](const Material& material) {
-                    return material.dampingTime != tissue.dampingTime;
-                }));
-    }
 
     /// The weights and dampers of the springs that `connections` (18 bits a node) leaves.
     void setWeights(const std::vector<std::uint32_t>& connections) {

@@ -73,7 +73,7 @@ private:
             graspTargets_[i].attach(GL_COLOR_ATTACHMENT0, textures_.nodeInfo_[i]);
             graspTargets_[i].setDrawBuffers(1);
         }
-        if (CellPass::needed(setup_.tissue))
+        if (setup_.tissue.needsCellPass())
             SEROSA_TRY(cellPass_.initialize(setup_, textures_, defines, stepProgram_, false));
         emptyVertices_ = gpu::VertexArray("no attributes");
 
@@ -83,7 +83,7 @@ private:
 
     void takeStep(bool last) {
         setTools();
-        if (CellPass::needed(setup_.tissue)) {
+        if (setup_.tissue.needsCellPass()) {
             // The first tool's impulse blends into attachment 2, this pass's third column must not.
             glDisablei(GL_BLEND, 2);
             cellPass_.run(textures_);

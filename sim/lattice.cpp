@@ -35,10 +35,6 @@ std::size_t gridIndex(const glm::ivec3& p, const glm::ivec3& dims) {
            std::size_t(p.x);
 }
 
-glm::ivec3 cornerOffset(int corner) {
-    return {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
-}
-
 /// The two triangles of each outer face of each material cell.
 void addBoundary(Lattice& lattice, const std::vector<std::uint8_t>& fillOfCell) {
     const glm::ivec3 cellDims = lattice.nodeDims - 1;
@@ -71,6 +67,10 @@ void addBoundary(Lattice& lattice, const std::vector<std::uint8_t>& fillOfCell) 
 }
 
 } // namespace
+
+glm::ivec3 cornerOffset(int corner) {
+    return {corner & 1, (corner >> 1) & 1, (corner >> 2) & 1};
+}
 
 bool octantHolds(int octant, int d) {
     const glm::ivec3& offset = kNeighbourOffsets[std::size_t(d)];

@@ -82,6 +82,9 @@ Result<Lattice> buildLattice(const TriangleMesh& metres, const LatticeRequest& r
 /// are refused.
 Lattice latticeFromCells(std::vector<LatticeCell> cells, double spacing, const glm::dvec3& origin);
 
+/// Corner c of a cell lies at +x if c & 1, +y if c & 2, +z if c & 4: 0 or 1 along each axis.
+glm::ivec3 cornerOffset(int corner);
+
 /// Does the cell in octant `octant` around a node (cell c lies towards +x if c & 1, ...) hold the node's
 /// neighbour in direction d, too?
 bool octantHolds(int octant, int d);

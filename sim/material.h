@@ -44,9 +44,7 @@ struct Material {
         return 0.4 * young * (1.25 / (1 + poisson)); // exactly 0.4 E at 1/4
     }
     /// Spring constant in N/m for spacing h in m: mu h.
-    double springConstant(double spacing) const {
-        return 0.4 * young * spacing * (1.25 / (1 + poisson)); // exactly 0.4 E h at 1/4
-    }
+    double springConstant(double spacing) const { return shearModulus() * spacing; }
     /// (lambda - mu) / mu, not negative: what the volumetric term adds to lambda, in units of k/h.
     double bulkShare() const { return 2 * poisson / (1 - 2 * poisson) - 1; }
     bool stiffens() const { return !curve.empty() || strainLimit > 0; }
@@ -56,7 +54,7 @@ struct Material {
 /// Of a whole organ. As a Material it is the one of the cells that no region gives another.
 struct Tissue : Material {
     double airDrag = 0;           // 1/s; of a node's velocity
-    bool recovery = false;        // cells below a third of their volume push back (sim/volume_term.h)
+    bool recovery = false;        // cells below 40% of their volume push back (sim/volume_term.h)
     std::vector<Material> others; // materials 1, 2, ...; at most SRS_MAX_MATERIALS - 1
 
     std::size_t materialCount() const { return 1 + others.size(); }
@@ -78,10 +76,18 @@ struct Tissue : Material {
     bool fibrous() const {
         return any([](const Material& m) { return m.fibrous(); });
     }
+    /// Does a step need a pass over the cells?
+    bool needsCellPass() const { return volumetric() || stiffens(); }
     /// Damping along springs anywhere?
     bool damped() const {
         return any([](const Material& m) { return m.dampingTime > 0; });
     }
+    /// Do damping times differ between materials?
+    bool dampingVaries() const {
+        return any([this](const Material& m) { return m.dampingTime != dampingTime; });
+    }
+    /// Is damping no one multiple of the springs' weights? Stiffened springs keep the damping of their rest.
+    bool ownDampers() const { return damped() && (stiffens() || dampingVaries()); }
 
 private:
     template <class Predicate>

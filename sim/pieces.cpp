@@ -2,6 +2,7 @@
 #include "sim/pieces.h"
 
 #include "base/check.h"
+#include "sim/cell_volumes.h"
 
 #include <algorithm>
 #include <array>
@@ -10,22 +11,6 @@
 namespace serosa::sim {
 
 namespace {
-
-glm::ivec3 corner(int c) {
-    return {c & 1, (c >> 1) & 1, c >> 2};
-}
-
-/// Bits of the connections that stay inside a cell from its corner c.
-std::uint32_t bitsInCell(int c) {
-    std::uint32_t bits = 0;
-    for (int d = 0; d < 18; ++d) {
-        const glm::ivec3 to = corner(c) + kNeighbourOffsets[std::size_t(d)];
-        if (glm::all(glm::greaterThanEqual(to, glm::ivec3(0))) &&
-            glm::all(glm::lessThanEqual(to, glm::ivec3(1))))
-            bits |= 1u << d;
-    }
-    return bits;
-}
 
 /// Index + 1 of the cell at each node of the grid that is its lowest corner; 0 where none.
 std::vector<std::uint32_t> cellOfGrid(const Lattice& lattice) {
@@ -85,16 +70,14 @@ std::size_t springsCut(const Lattice& lattice, const std::vector<std::uint32_t>&
 }
 
 std::vector<bool> wholeCells(const Lattice& lattice, const std::vector<std::uint32_t>& connections) {
-    std::array<std::uint32_t, 8> inCell{};
-    for (int c = 0; c < 8; ++c)
-        inCell[std::size_t(c)] = bitsInCell(c);
     std::vector<bool> whole(lattice.cells.size(), true);
-    for (std::size_t i = 0; i < whole.size(); ++i)
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        const CellCorners corners = cornersOf(lattice, lattice.cells[i]);
         for (int c = 0; c < 8; ++c) {
-            const auto node = std::size_t(lattice.nodeAt(lattice.cells[i].grid + corner(c)));
-            const std::uint32_t needed = inCell[std::size_t(c)];
-            whole[i] = whole[i] && (connections[node] & needed) == needed;
+            const std::uint32_t needed = directionsInCell(c);
+            whole[i] = whole[i] && (connections[corners[std::size_t(c)]] & needed) == needed;
         }
+    }
     return whole;
 }
 

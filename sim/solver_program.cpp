@@ -2,7 +2,6 @@
 #include "sim/solver_program.h"
 
 #include "shaders/shared_constants.h"
-#include "sim/cell_pass.h"
 
 #include <array>
 #include <bit>
@@ -19,9 +18,6 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         {"SRS_TOOLS", std::to_string(setup.tools.size())},
         {"SRS_EQUATION", options.printedForm ? "2" : "1"}};
     const Tissue& tissue = setup.tissue;
-    bool varied = tissue.stiffens(); // damping follows the unstretched springs
-    for (const Material& material : tissue.others)
-        varied = varied || material.dampingTime != tissue.dampingTime;
     defines.push_back({"SRS_MATERIALS", std::to_string(tissue.materialCount())});
     if (tissue.materialCount() > 1 || tissue.fibrous() || tissue.stiffens())
         defines.push_back({"SRS_CELL_MATERIALS", "1"});
@@ -29,9 +25,9 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         defines.push_back({"SRS_FIBRES", "1"});
     if (tissue.damped())
         defines.push_back({"SRS_DAMPING", "1"});
-    if (tissue.damped() && varied)
-        defines.push_back({"SRS_VARIED_DAMPING", "1"});
-    if (CellPass::needed(tissue))
+    if (tissue.ownDampers())
+        defines.push_back({"SRS_OWN_DAMPERS", "1"});
+    if (tissue.needsCellPass())
         defines.push_back({"SRS_CELL_PASS", "1"});
     if (tissue.volumetric())
         defines.push_back({"SRS_VOLUME", "1"});

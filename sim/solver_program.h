@@ -13,7 +13,7 @@ namespace serosa::sim {
 
 /// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_TOOLS, SRS_EQUATION, SRS_MATERIALS,
 /// SRS_NORMALS, SRS_FULL_CELLS, SRS_TEXEL_FETCH, and what the tissue asks for: SRS_DAMPING,
-/// SRS_VARIED_DAMPING, SRS_CELL_MATERIALS, SRS_FIBRES, SRS_CELL_PASS with SRS_VOLUME and SRS_STIFFENING.
+/// SRS_OWN_DAMPERS, SRS_CELL_MATERIALS, SRS_FIBRES, SRS_CELL_PASS with SRS_VOLUME and SRS_STIFFENING.
 std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
                                              const KernelOptions& options);
 /// What does not change between steps: stiffness, drag, gravity, damping, materials, in lattice units.

@@ -137,12 +137,11 @@ double stiffestShare(const Operator& stiffness) {
 /// omega^2 of a lone full cell of one material, at its steepest tangent, in units of k/m of material 0.
 double loneCellShare(const MaterialShares& material) {
     Eigen::Matrix<double, 24, 24> stiffness = Eigen::Matrix<double, 24, 24>::Zero();
-    const auto corner = [](int c) { return glm::ivec3(c & 1, (c >> 1) & 1, c >> 2); };
     for (int a = 0; a < 8; ++a)
         for (int d = 0; d < 18; d += 2) {
             if (!((directionsInCell(a) >> d) & 1u))
                 continue;
-            const glm::ivec3 to = corner(a) + kNeighbourOffsets[std::size_t(d)];
+            const glm::ivec3 to = cornerOffset(a) + kNeighbourOffsets[std::size_t(d)];
             const int b = to.x | to.y << 1 | to.z << 2;
             const glm::dvec3 n = glm::normalize(glm::dvec3(kNeighbourOffsets[std::size_t(d)]));
             const double weight = (d < 6 ? 0.25 : 0.5) * material.spring[std::size_t(d / 2)];
@@ -172,7 +171,7 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     const double perShare = tissue.stiffnessOverMass(lattice.spacing);
     const TissueField field(lattice, tissue);
     const bool isotropic = tissue.materialCount() == 1 && !tissue.fibrous();
-    const bool volumetric = tissue.volumetric(), stiffens = tissue.stiffens();
+    const bool stiffens = tissue.stiffens();
 
     std::vector<double> inverseRootMass, tangents; // one a cell
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
@@ -200,15 +199,14 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     step.springRate2 = rate(springs, {}, kEndlessLattice);
     step.formulaRate2 = (kEndlessLattice + kEndlessLatticeBulk * bulk) * tangent * perShare;
     step.stiffestRate2 = step.springRate2;
-    if (volumetric || stiffens) {
+    if (tissue.needsCellPass()) {
         const SpringList stiffened = collectSprings(
             lattice, [&](std::size_t node, int d) { return field.springWeight(node, d, tangents); });
         step.stiffestRate2 = rate(stiffened, VolumeTerm(lattice, tissue, lattice.connections),
                                   (kEndlessLattice + kEndlessLatticeBulk * bulk) * tangent);
     }
     step.dampingRate = tissue.dampingTime * step.springRate2;
-    const auto other = [&](const Material& material) { return material.dampingTime != tissue.dampingTime; };
-    if (std::any_of(tissue.others.begin(), tissue.others.end(), other)) {
+    if (tissue.dampingVaries()) {
         const SpringList dampers =
             collectSprings(lattice, [&](std::size_t node, int d) { return field.dampingWeight(node, d); });
         step.dampingRate =

@@ -2,6 +2,7 @@
 #include "sim/stiffening.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/pieces.h"
 #include "sim/volume_term.h"
 
 #include <cmath>
@@ -26,13 +27,12 @@ Stiffening::Stiffening(const Lattice& lattice, const Tissue& tissue,
     if (!tissue.stiffens())
         return;
     materials_ = materialShares(tissue);
-    for (const LatticeCell& cell : lattice.cells) {
-        Cell added{cornersOf(lattice, cell), {}, cell.fill / 255.0, true, cell.material};
-        for (int c = 0; c < 8; ++c) {
-            const std::uint32_t inside = directionsInCell(c);
-            added.bits[std::size_t(c)] = connections[added.corners[std::size_t(c)]] & inside;
-            added.whole = added.whole && added.bits[std::size_t(c)] == inside;
-        }
+    const std::vector<bool> whole = wholeCells(lattice, connections);
+    for (std::size_t i = 0; i < lattice.cells.size(); ++i) {
+        const LatticeCell& cell = lattice.cells[i];
+        Cell added{cornersOf(lattice, cell), {}, cell.fill / 255.0, whole[i], cell.material};
+        for (int c = 0; c < 8; ++c)
+            added.bits[std::size_t(c)] = connections[added.corners[std::size_t(c)]] & directionsInCell(c);
         cells_.push_back(added);
     }
 }

@@ -3,6 +3,7 @@
 
 #include "shaders/shared_constants.h"
 #include "sim/cell_volumes.h"
+#include "sim/pieces.h"
 #include "sim/solver.h"
 
 #include <algorithm>
@@ -39,36 +40,19 @@ glm::dmat3 volumeStress(const glm::dmat3& gradient, double bulk, double recovery
 
 } // namespace
 
-std::uint32_t directionsInCell(int corner) {
-    std::uint32_t mask = 0;
-    for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
-        bool inside = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            const int step = kNeighbourOffsets[std::size_t(d)][axis];
-            inside = inside && (step == 0 || (step < 0) == (((corner >> axis) & 1) != 0));
-        }
-        mask |= inside ? 1u << d : 0u;
-    }
-    return mask;
-}
-
 VolumeTerm::VolumeTerm(const Lattice& lattice, const Tissue& tissue,
                        const std::vector<std::uint32_t>& connections) {
     SEROSA_CHECK(connections.size() == lattice.nodeCount(), "connections of this lattice");
     if (!tissue.volumetric())
         return;
     const std::vector<MaterialShares> materials = materialShares(tissue);
+    const std::vector<bool> whole = wholeCells(lattice, connections);
     for (std::size_t i = 0; i < lattice.cells.size(); ++i) {
         const LatticeCell& cell = lattice.cells[i];
         SEROSA_CHECK(cell.material < materials.size(), "cells of the tissue's materials");
         const MaterialShares& material = materials[cell.material];
         const Cell added{cornersOf(lattice, cell), i, cell.fill / 255.0, material.bulk, material.recovery};
-        bool whole = true;
-        for (int c = 0; c < 8; ++c) {
-            const std::uint32_t needed = directionsInCell(c);
-            whole = whole && (connections[added.corners[std::size_t(c)]] & needed) == needed;
-        }
-        if (whole && (added.bulk > 0 || added.recovery > 0))
+        if (whole[i] && (added.bulk > 0 || added.recovery > 0))
             cells_.push_back(added);
     }
 }

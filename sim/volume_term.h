@@ -70,7 +70,4 @@ private:
 /// W of one cell, in units of k h^2, from its mean deformation gradient.
 double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery);
 
-/// The directions of the 18 that stay inside a cell from its corner c: 3 edges and 3 face diagonals.
-std::uint32_t directionsInCell(int corner);
-
 } // namespace serosa::sim
