@@ -18,7 +18,7 @@ void OrganGuard::restart(int frame) {
     impulses_.assign(organ_.setup.tools.size(), glm::dvec3(0));
     sim::LatticeState state = organ_.solver->state(); // as the solver rounds it
     watchdog_.start(state);
-    seen_ = frame;
+    seen_ = accounted_ = frame;
     const std::optional<sim::Alarm> alarm = watchdog_.check(state);
     good_.emplace(Good{std::move(state), watchdog_});
     if (alarm) { // there is no better state than rest
@@ -27,16 +27,20 @@ void OrganGuard::restart(int frame) {
     }
 }
 
-void OrganGuard::stepped(int frame) {
+void OrganGuard::account(int frame) {
+    if (accounted_ == frame)
+        return;
     const std::vector<glm::dvec3> impulses = organ_.solver->takeToolImpulses();
-    watchdog_.addWork((frame - 1) * frameTime_, frame * frameTime_, impulses);
+    watchdog_.addWork(accounted_ * frameTime_, frame * frameTime_, impulses);
     for (std::size_t i = 0; i < impulses.size(); ++i)
         impulses_[i] += impulses[i];
+    accounted_ = frame;
 }
 
 bool OrganGuard::check(int frame) {
     if (frozen() || seen_ == frame)
         return false;
+    account(frame);
     sim::LatticeState state = organ_.solver->state();
     if (const std::optional<sim::Alarm> found = watchdog_.check(state)) {
         // Frame by frame first, then the steps of the first bad frame.
@@ -55,7 +59,9 @@ bool OrganGuard::check(int frame) {
     return false;
 }
 
-std::vector<glm::dvec3> OrganGuard::takeToolImpulses() {
+std::vector<glm::dvec3> OrganGuard::takeToolImpulses(int frame) {
+    if (!frozen())
+        account(frame);
     std::vector<glm::dvec3> taken(impulses_.size(), glm::dvec3(0));
     std::swap(taken, impulses_);
     return taken;

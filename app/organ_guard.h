@@ -23,16 +23,15 @@ public:
 
     /// The solver's state was set from elsewhere, and is that after `frame` frames.
     void restart(int frame);
-    /// The solver took the steps of a frame, which is number `frame` now.
-    void stepped(int frame);
     /// Looks at the state. True: it is wrong, and the organ was set back and is frozen now. Nothing is done
     /// where the state was seen before.
     bool check(int frame);
 
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }
-    /// Impulses of the tools since the last call, as Solver::takeToolImpulses, which this calls every frame.
-    std::vector<glm::dvec3> takeToolImpulses();
+    /// Impulses of the tools until `frame` since the last call, as Solver::takeToolImpulses, which is this
+    /// guard's to call. They are read back when they are asked for, or with a look.
+    std::vector<glm::dvec3> takeToolImpulses(int frame);
 
 private:
     /// What was seen to be good, and what the watchdog knew then.
@@ -44,13 +43,15 @@ private:
     /// cuts of the list; `good` follows.
     std::optional<sim::Alarm> retrace(Good& good, std::int64_t last, int steps);
     void freeze(const sim::Alarm& alarm, const Good& good);
+    /// Takes what tools gave until `frame` from the solver.
+    void account(int frame);
 
     OrganParts& organ_;
     const sim::CutList& cuts_;
     double frameTime_; // s
     sim::Watchdog watchdog_;
     std::optional<Good> good_;
-    int seen_ = 0; // the frame of good_
+    int seen_ = 0, accounted_ = 0; // the frames of good_ and of impulses_
     std::optional<sim::Alarm> alarm_;
     std::vector<glm::dvec3> impulses_; // N s
 };

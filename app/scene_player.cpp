@@ -73,7 +73,6 @@ void ScenePlayer::advance() {
             if (guards_[i]->frozen())
                 continue;
             organ.solver->advance(organ.step.stepsPerFrame);
-            guards_[i]->stepped(frame_);
             cut(i);
             if (organ.uploaded)
                 organ.uploaded->upload(organ.solver->state());
@@ -101,6 +100,7 @@ void ScenePlayer::check() {
 
 void ScenePlayer::reset() {
     frame_ = 0;
+    lastCut_.assign(lastCut_.size(), 0);
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
         OrganParts& organ = *parts_.organs[i];
         posed_[i].reset();
@@ -150,7 +150,7 @@ std::vector<std::string> ScenePlayer::alarmLines() const {
 }
 
 std::vector<glm::dvec3> ScenePlayer::takeToolImpulses(std::size_t organ) {
-    return guards_[organ] ? guards_[organ]->takeToolImpulses() : std::vector<glm::dvec3>();
+    return guards_[organ] ? guards_[organ]->takeToolImpulses(frame_) : std::vector<glm::dvec3>();
 }
 
 } // namespace serosa::app

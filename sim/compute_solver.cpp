@@ -102,14 +102,15 @@ private:
     }
 
     void takeStep(bool last) {
-        setTools();
+        gpu::Program& program = stepProgram_.of(last);
+        setTools(program);
         if (setup_.tissue.needsCellPass())
             cellPass_.run(textures_);
-        setStepInputs(options_.useTexelFetch);
+        setStepInputs(program, options_.useTexelFetch);
         const std::size_t to = std::size_t(nextHalf());
-        stepProgram_.image("i_newPositions", textures_.positions_[to], GL_WRITE_ONLY);
-        stepProgram_.image("i_newIncrements", textures_.increments_[to], GL_WRITE_ONLY);
-        stepProgram_.of(last).dispatch(items_);
+        program.image("i_newPositions", textures_.positions_[to], GL_WRITE_ONLY);
+        program.image("i_newIncrements", textures_.increments_[to], GL_WRITE_ONLY);
+        program.dispatch(items_);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                         GL_SHADER_STORAGE_BARRIER_BIT);
         finishStep();

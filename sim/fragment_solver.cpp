@@ -82,7 +82,8 @@ private:
     }
 
     void takeStep(bool last) {
-        setTools();
+        gpu::Program& program = stepProgram_.of(last);
+        setTools(program);
         if (setup_.tissue.needsCellPass()) {
             // The first tool's impulse blends into attachment 2, this pass's third column must not.
             glDisablei(GL_BLEND, 2);
@@ -90,9 +91,9 @@ private:
             if (!setup_.tools.empty())
                 glEnablei(GL_BLEND, 2);
         }
-        setStepInputs(options_.useTexelFetch);
+        setStepInputs(program, options_.useTexelFetch);
         stepTargets_[std::size_t(nextHalf())].bind(textures_.layout().width, textures_.layout().height);
-        stepProgram_.of(last).use();
+        program.use();
         // Image loads are incoherent: what the last pass wrote as a render target must be visible first.
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT);

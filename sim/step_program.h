@@ -1,6 +1,7 @@
 #pragma once
 // The program of a solver step, twice: with normals, and without. Normals (MS05 eq. 3) are for drawing only,
-// so that only the last step of an advance() needs them. What is set is set in both.
+// so that only the last step of an advance() needs them. What stays from step to step is set in
+// both, what changes in the one that runs.
 
 #include "gpu/program.h"
 #include "sim/solver.h"
@@ -20,7 +21,7 @@ public:
                                       const KernelOptions& options);
 
     /// The program of a step. \param last it is the last one of its advance()
-    const gpu::Program& of(bool last) const { return last ? programs_.front() : programs_.back(); }
+    gpu::Program& of(bool last) { return last ? programs_.front() : programs_.back(); }
 
     /// Calls `change` with each program.
     template <class Change>

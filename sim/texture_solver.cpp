@@ -19,22 +19,22 @@ void TextureSolver::setConstants() {
     }
 }
 
-void TextureSolver::setStepInputs(bool useTexelFetch) {
+void TextureSolver::setStepInputs(gpu::Program& program, bool useTexelFetch) {
     if (useTexelFetch) {
-        stepProgram_.texture("t_positions", textures_.positions());
-        stepProgram_.texture("t_increments", textures_.increments());
+        program.texture("t_positions", textures_.positions());
+        program.texture("t_increments", textures_.increments());
     } else {
-        stepProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
-        stepProgram_.image("i_increments", textures_.increments(), GL_READ_ONLY);
+        program.image("i_positions", textures_.positions(), GL_READ_ONLY);
+        program.image("i_increments", textures_.increments(), GL_READ_ONLY);
     }
-    stepProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
+    program.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
 }
 
-void TextureSolver::setTools() {
+void TextureSolver::setTools(gpu::Program& program) {
     if (setup_.tools.empty())
         return;
     const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-    stepProgram_.each([&tools](gpu::Program& program) { setToolUniforms(program, tools); });
+    setToolUniforms(program, tools);
     for (std::size_t i = 0; i < tools.size(); ++i) {
         if (!tools[i].closes && !tools[i].opens)
             continue;

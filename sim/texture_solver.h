@@ -35,10 +35,11 @@ protected:
 
     /// What stepProgram_ reads and does not change between steps; the program must be made.
     void setConstants();
-    /// What stepProgram_ reads in the step to come. \param useTexelFetch as KernelOptions
-    void setStepInputs(bool useTexelFetch);
-    /// Tools of the step to come: their uniforms, and a grasp pass for each that takes hold or lets go.
-    void setTools();
+    /// What the program of the step to come reads. \param useTexelFetch as KernelOptions
+    void setStepInputs(gpu::Program& program, bool useTexelFetch);
+    /// Tools of the step to come: uniforms of its program, and a grasp pass for each that takes hold or lets
+    /// go.
+    void setTools(gpu::Program& program);
     /// The half of the state that the step writes.
     int nextHalf() const { return 1 - textures_.current_; }
     /// The step is written.

@@ -106,16 +106,12 @@ Watchdog::Watchdog(const SolverSetup& setup, const StableStep& step) : setup_(se
 void Watchdog::start(const LatticeState& state) {
     const Energies now = energies(setup_, state);
     budget_ = now.kinetic + now.elastic + now.gravitational + floor_;
-    // A sphere that begins inside the organ throws its nodes out in one step; at the margin their springs get
-    // less than twice as much.
-    const double speed = setup_.lattice->spacing / setup_.timeStep;
-    for (const ToolMotion& tool : toolMotions(setup_, state.step))
-        for (std::size_t node = 0; node < state.positions.size() && tool.mode == SRS_TOOL_PUSH; ++node) {
+    const std::vector<ToolMotion> tools = toolMotions(setup_, state.step);
+    embedded_.assign(tools.size(), false);
+    for (std::size_t i = 0; i < tools.size(); ++i)
+        for (std::size_t node = 0; node < state.positions.size() && !embedded_[i]; ++node) {
             const glm::dvec3& at = state.positions[node];
-            const glm::dvec3 thrown =
-                speed * (tool.apply(at, at, false, setup_.lattice->restDepth(node)) - at);
-            budget_ += 1.5 * setup_.tissue.nodeMass(setup_.lattice->spacing) * field_->massShare(node) *
-                       glm::dot(thrown, thrown);
+            embedded_[i] = tools[i].apply(at, at, false, setup_.lattice->restDepth(node)) != at;
         }
     energyShare_ = 0;
 }
@@ -139,7 +135,9 @@ void Watchdog::addWork(double from, double to, const std::vector<glm::dvec3>& im
             if (key.time > from && key.time < to)
                 piece(key.time);
         piece(to);
-        const double work = pieces > 1 ? glm::length(impulses[i]) * fastest : glm::dot(impulses[i], velocity);
+        double work = pieces > 1 ? glm::length(impulses[i]) * fastest : glm::dot(impulses[i], velocity);
+        if (i < embedded_.size() && embedded_[i]) // what it pushes out moves by itself
+            work += glm::length(impulses[i]) * SRS_EJECTION * setup_.lattice->spacing / setup_.timeStep;
         // What a tool takes back is not deducted: tissue that slides around a sphere is lifted a little more
         // than the contact's plane says, and where a deeply embedded sphere has large forces all round, their
         // small sum says little. check() follows the energy down.

@@ -73,9 +73,10 @@ private:
     SolverSetup setup_;
     StableStep step_;
     std::shared_ptr<const TissueField> field_; // not null; copies share it
-    double budget_ = 0;                        // J, gravity's potential included
-    double floor_ = 0;                         // J: below, rounding
-    double energyShare_ = 0;                   // at the last check
+    std::vector<bool> embedded_; // of the tools: began inside the organ, and pushes it out (SRS_EJECTION)
+    double budget_ = 0;          // J, gravity's potential included
+    double floor_ = 0;           // J: below, rounding
+    double energyShare_ = 0;     // at the last check
 };
 
 } // namespace serosa::sim

@@ -1,14 +1,18 @@
 // A pushing sphere touches the organ's surface, wherever it lies between the nodes, and ordinary palpation
 // neither turns cells inside out nor leaves a dent.
+#include "shaders/shared_constants.h"
 #include "sim/cell_volumes.h"
+#include "sim/cpu_solver.h"
 #include "sim/node_depths.h"
 #include "sim/solver.h"
+#include "sim/tool_motion.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace serosa;
 
@@ -106,6 +110,72 @@ TEST(Contact, palpationTurnsNoCellInsideOutAndLeavesNoDent) {
     for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
         dent = std::max(dent, glm::length(after.positions[node] - lattice.restPosition(node)));
     EXPECT_LT(dent, 0.01);
+}
+
+// Relative to the tool no node moves further with contact than it would have without, however fast it crosses
+// the sphere, and from whatever side: contact takes energy, and never gives any.
+TEST(Contact, neverSpeedsANodeUpAgainstTheTool) {
+    std::mt19937 random(4);
+    const auto vector = [&random](double size) {
+        const auto one = [&] { return size * (double(random()) / 2147483648.0 - 1); };
+        const double x = one(), y = one(), z = one();
+        return glm::dvec3(x, y, z);
+    };
+    int crossed = 0;
+    for (int i = 0; i < 2000; ++i) {
+        sim::ToolMotion tool;
+        tool.mode = SRS_TOOL_PUSH;
+        tool.radius = 2;
+        tool.from = vector(1);
+        tool.to = tool.from + vector(0.5);
+        const double depth = vector(1).x, reach = tool.radius + depth;
+        const glm::dvec3 x = tool.from + glm::normalize(vector(1)) * reach * 1.000001; // touching
+        const glm::dvec3 free = tool.to + vector(0.9 * reach);
+        const glm::dvec3 after = tool.apply(x, free, false, depth);
+        const glm::dvec3 start = x - tool.from;
+        EXPECT_LE(glm::length(after - tool.to - start), glm::length(free - tool.to - start) * (1 + 1e-9));
+        EXPECT_GE(glm::length(after - tool.to), reach * (1 - 1e-9));
+        crossed += glm::dot(free - tool.to, start) < 0; // to the other half of the sphere
+    }
+    EXPECT_GT(crossed, 500);
+}
+
+// A grasp lets go inside a pushing sphere, or a sphere begins inside of the organ: what lies there is not
+// thrown out in one step.
+TEST(Contact, whatLiesInsideComesOutSlowly) {
+    sim::ToolMotion tool;
+    tool.mode = SRS_TOOL_PUSH;
+    tool.radius = 3;
+    glm::dvec3 x(0.5, 0, 0);
+    int steps = 0;
+    for (; glm::length(x) < 3 - 1e-9 && steps < 1000; ++steps) {
+        const glm::dvec3 next = tool.apply(x, x, false, 0);
+        EXPECT_LE(glm::length(next - x), SRS_EJECTION * (1 + 1e-9));
+        x = next;
+    }
+    EXPECT_NEAR(steps, 2.5 / SRS_EJECTION, 1);
+
+    // On all solvers alike.
+    const sim::Lattice lattice = test::blockLattice(6, 6, 6);
+    sim::SolverSetup setup = setupOf(lattice);
+    setup.tissue.dampingTime = 0.002;
+    setup.timeStep = sim::stableStep(lattice, setup.tissue, 1.0 / 60).timeStep;
+    setup.tools = {{"probe", sim::ToolMode::push, 0.004, {{0, lattice.toWorld({0.3, 0.2, 0.1})}}}};
+    const auto reference = sim::makeReferenceSolver(setup);
+    const auto cpu = sim::makeCpuSolver(setup);
+    reference->advance(300);
+    cpu->advance(300);
+    const sim::LatticeState a = reference->state(), b = cpu->state();
+    double worst = 0, moved = 0, fastest = 0;
+    for (std::size_t node = 0; node < a.positions.size(); ++node) {
+        EXPECT_TRUE(std::isfinite(b.positions[node].x));
+        worst = std::max(worst, glm::distance(a.positions[node], b.positions[node]));
+        moved = std::max(moved, glm::distance(a.positions[node], lattice.restPosition(node)));
+        fastest = std::max(fastest, glm::length(a.increments[node]));
+    }
+    EXPECT_LT(worst, 1e-3);
+    EXPECT_GT(moved, 0.3);
+    EXPECT_LT(fastest, 2 * SRS_EJECTION);
 }
 
 TEST(CellVolumes, areThoseOfAnAffineMap) {

@@ -78,12 +78,18 @@ TEST(VolumeTerm, isNothingAtAQuarterAndRefusesNothingElse) {
 
 TEST(VolumeTerm, forceIsTheDerivativeOfTheEnergy) {
     const Lattice lattice = raggedLattice(4);
-    for (const bool recovery : {false, true}) {
+    struct Shape {
+        glm::dvec3 stretch;
+        bool recovery;
+    };
+    // Small; collapsed (J about 0.2); squeezed flat and drawn wide, where q < 1; inside out and drawn out.
+    for (const auto& [stretch, recovery] :
+         {Shape{{1, 1, 1}, false}, Shape{{1, 1, 0.2}, true}, Shape{{1.6, 1.5, 0.5}, false},
+          Shape{{1.8, 1.8, 0.1}, true}, Shape{{-1.5, 2, 1.5}, true}}) {
         const VolumeTerm term(lattice, tissueOf(recovery ? 0.25 : 0.4, recovery), lattice.connections);
         std::vector<glm::dvec3> x = disturbed(lattice, 0.03, 5);
-        if (recovery) // collapsed: J about 0.2
-            for (glm::dvec3& p : x)
-                p.z *= 0.2;
+        for (glm::dvec3& p : x)
+            p *= stretch;
         std::vector<glm::dvec3> force(x.size(), glm::dvec3(0)), way = disturbed(lattice, 1, 6), moved = x;
         for (std::size_t i = 0; i < x.size(); ++i)
             way[i] -= lattice.restPosition(i);
@@ -95,7 +101,7 @@ TEST(VolumeTerm, forceIsTheDerivativeOfTheEnergy) {
         for (std::size_t i = 0; i < x.size(); ++i)
             moved[i] = x[i] - step * way[i];
         const double slope = (above - term.energy(moved)) / (2 * step);
-        EXPECT_NEAR(slope, -dot(force, way), 1e-6 * std::abs(slope)) << recovery;
+        EXPECT_NEAR(slope, -dot(force, way), 1e-6 * std::abs(slope)) << stretch.x << " " << recovery;
         EXPECT_GT(std::abs(slope), 1e-3);
     }
 }
