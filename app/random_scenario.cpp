@@ -98,14 +98,13 @@ std::vector<sim::ToolKey> randomPath(Random& random, double time, const glm::dve
     return keys;
 }
 
-/// At most one sphere pushes: two that run into each other throw what lies between them from one into the
-/// other.
-sim::Tool randomTool(Random& random, bool mayPush, const sim::Lattice& lattice, const Bounds& bounds,
+/// \param pushes else it grasps
+sim::Tool randomTool(Random& random, bool pushes, const sim::Lattice& lattice, const Bounds& bounds,
                      double end) {
     sim::Tool tool;
     tool.name = "tool";
     tool.radius = random.number(1.5, 4) * lattice.spacing;
-    if (mayPush) {
+    if (pushes) {
         // From where it touches nothing.
         const glm::dvec3 start =
             bounds.middle + random.direction() * (bounds.radius + tool.radius + 2 * lattice.spacing);
@@ -177,10 +176,10 @@ sim::Tissue randomTissue(Random& random, Wildness wildness) {
     sim::Tissue tissue;
     const bool damped = wildness == Wildness::damped;
     const auto fill = [&random, damped](sim::Material& material) {
-        material.young = random.logNumber(damped ? 2000 : 500, 1e5);
+        material.young = random.logNumber(500, 1e5);
         material.poisson = random.chance(0.4) ? 0.25 : random.chance(0.2) ? 0.49 : random.number(0.25, 0.49);
         material.density = random.number(900, 1200);
-        material.dampingTime = damped               ? random.logNumber(2e-4, 2e-3)
+        material.dampingTime = damped               ? random.logNumber(5e-5, 2e-3)
                                : random.chance(0.4) ? 0
                                                     : random.logNumber(5e-5, 2e-3);
         if (random.chance(0.15)) {
@@ -275,8 +274,8 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
         setup.fixed = randomFixed(random, lattice, bounds);
     if (random.chance(0.8))
         setup.tools.push_back(randomTool(random, true, lattice, bounds, end));
-    for (int grasps = random.whole(0, 2); grasps > 0; --grasps)
-        setup.tools.push_back(randomTool(random, false, lattice, bounds, end));
+    for (int more = random.whole(0, 2); more > 0; --more)
+        setup.tools.push_back(randomTool(random, random.chance(0.4), lattice, bounds, end));
     for (int cuts = random.chance(0.6) ? random.whole(1, 4) : 0; cuts > 0; --cuts)
         scenario->cuts.push_back(randomCut(random, lattice, bounds, end));
     if (random.chance(0.25))

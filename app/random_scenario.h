@@ -32,10 +32,9 @@ private:
     std::mt19937 engine_;
 };
 
-/// `damped` is tissue of 2 kPa and more, with waves faster than any tool here, and of at least 0.2 ms of
-/// damping. `any` goes down to 500 Pa, below the speed of its own waves, and to no damping at all: nothing
-/// takes away what thousands of steps of folding and snapping add, so that some of it must run away and be
-/// stopped.
+/// `damped` is tissue with at least 0.05 ms of damping along springs (a scene's default is 0.5 ms); `any` can
+/// have none at all: nothing takes away what thousands of steps of folding and snapping add, so that some of
+/// it runs away in the end and is stopped.
 enum class Wildness { damped, any };
 
 /// Soft to stiff, Poisson's ratio 0.25 (two in five) to 0.49, with and without damping and recovery; one to

@@ -13,8 +13,9 @@
 //     with k (1 - L/d) where it is stretched. With S_i the sum of these 3x3 matrices over the springs of node
 //     i, omega^2 <= max_i 2 |S_i| / m_i whatever the state is, exactly 12 k/m inside the rest lattice. Where
 //     |S_i| has grown so far over its rest value that dt^2 omega^2 + 2 dt tau omega_s^2 < 4 (ARCHITECTURE.md,
-//     stability) fails with omega scaled by it, the node overruns the step: double length on all
-//     sides, which a step that blows up shows at once, or seven times along one axis.
+//     stability) fails with omega scaled by it, the node overruns the step: double length on all sides, or
+//     seven times along one axis. That is a bound from above, and a step that is too long for a moment does
+//     no harm: an organ is stopped for it once it holds more energy than can have come in.
 // Checking changes nothing in the state.
 
 #include "sim/lattice_state.h"
