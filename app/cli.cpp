@@ -7,7 +7,7 @@
 #include "app/commands.h"
 #include "app/doctor.h"
 #include "app/scene_snapshot.h"
-#include "app/verify.h"
+#include "app/verify/verify.h"
 #include "app/version.h"
 #include "models/phantom.h"
 #include "sim/quantity.h"

@@ -4,7 +4,7 @@
 
 #include "app/manual/command_tree.h"
 #include "app/solver_choice.h"
-#include "app/verify.h"
+#include "app/verify/verify.h"
 #include "models/phantom.h"
 #include "sim/scene_keys.h"
 

@@ -1,10 +1,10 @@
 // The finite elements that the lattice is compared with, against what is known without them: uniform strain,
 // rigid motions, beam theory and convergence; and the solids that they are made of.
 
-#include "app/fem_comparison.h"
-#include "app/fem_solid.h"
-#include "app/plane_cut.h"
-#include "app/tet_mesh.h"
+#include "app/verify/fem_comparison.h"
+#include "app/verify/fem_solid.h"
+#include "app/verify/plane_cut.h"
+#include "app/verify/tet_mesh.h"
 #include "models/phantom.h"
 
 #include <gtest/gtest.h>

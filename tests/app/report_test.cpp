@@ -4,7 +4,7 @@
 #include "app/html_page.h"
 #include "app/output_folder.h"
 #include "app/run_report.h"
-#include "app/verify_html.h"
+#include "app/verify/html.h"
 #include "tests/app/child.h"
 #include "tests/app/page_reader.h"
 

@@ -1,5 +1,5 @@
 // What theory says of an indented layer, and that the forces on tools follow the tissue.
-#include "app/tool_measures.h"
+#include "app/verify/tool_measures.h"
 #include "sim/cpu_solver.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The framework of verification: what passes, what fails, and how it is written.
 
-#include "app/verify.h"
-#include "app/verify_report.h"
+#include "app/verify/report.h"
+#include "app/verify/verify.h"
 
 #include <gtest/gtest.h>
 
