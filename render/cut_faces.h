@@ -17,8 +17,4 @@ namespace serosa::render {
 std::vector<bool> facesLeft(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
                             const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections);
 
-/// Triangles over nodes: Lattice::boundary where nothing is cut.
-std::vector<glm::uvec3> boundaryLeft(const sim::Lattice& lattice,
-                                     const std::vector<std::uint32_t>& connections);
-
 } // namespace serosa::render

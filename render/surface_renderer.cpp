@@ -9,6 +9,7 @@
 #include "render/surface_passes.h"
 #include "render/surface_vertices.h"
 #include "render/tool_spheres.h"
+#include "sim/pieces.h"
 
 namespace serosa::render {
 
@@ -123,7 +124,7 @@ void SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
                                const sim::TextureLayout& layout,
                                const std::vector<std::uint32_t>& connections) {
     impl_->organs.at(organ).surface.show(metres.faces, facesLeft(lattice, metres.faces, binding, connections),
-                                         boundaryLeft(lattice, connections), layout);
+                                         sim::boundaryLeft(lattice, connections), layout);
 }
 
 void SurfaceRenderer::resize(int width, int height) {

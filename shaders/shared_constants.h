@@ -1,5 +1,6 @@
 // Constants that C++ and GLSL share: #define only, included by both.
 #define SRS_MAX_TOOLS 4
+#define SRS_MAX_COLLIDERS 12 // tools and bodies
 
 // State textures (ARCHITECTURE.md, texture formats).
 // Node info texel, RGBA32UI: .x = connection bits 0..17, rest depth << 18 (8 bits), flags << 26 (6 bits);

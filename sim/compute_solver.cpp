@@ -35,21 +35,21 @@ public:
                         GL_FRAMEBUFFER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
 
-    std::vector<glm::dvec3> takeToolImpulses() override {
+    std::vector<ToolLoad> takeLoads() override {
         const std::size_t tools = setup_.tools.size();
-        std::vector<glm::dvec3> impulses(tools, glm::dvec3(0));
+        std::vector<ToolLoad> loads(tools);
         if (tools == 0)
-            return impulses;
+            return loads;
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         impulseProgram_.dispatch({impulseGroups_ * impulseProgram_.groupSize().x, 1, 1});
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
         std::vector<float> sums(std::size_t(impulseGroups_) * tools * 3);
         impulseSums_.download(0, sums.size() * sizeof sums[0], sums.data());
         for (std::size_t i = 0; i < sums.size(); i += 3)
-            impulses[i / 3 % tools] += glm::dvec3(sums[i], sums[i + 1], sums[i + 2]);
-        for (glm::dvec3& impulse : impulses)
-            impulse *= impulseUnit(setup_);
-        return impulses;
+            loads[i / 3 % tools].impulse += glm::dvec3(sums[i], sums[i + 1], sums[i + 2]);
+        for (ToolLoad& load : loads)
+            load.impulse *= impulseUnit(setup_);
+        return loads;
     }
 
 private:

@@ -57,7 +57,7 @@ public:
     }
 
     const char* name() const override { return "cpu"; }
-    const Lattice& lattice() const override { return *setup_.lattice; }
+    const SolverSetup& setup() const override { return setup_; }
 
     void advance(int count) override {
         arena_.execute([this, count] {
@@ -105,14 +105,14 @@ public:
         }
     }
 
-    std::vector<glm::dvec3> takeToolImpulses() override {
+    std::vector<ToolLoad> takeLoads() override {
         // From mass shares times lattice units a step to N s.
         const double unit =
             setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
-        std::vector<glm::dvec3> taken(impulses_.size(), glm::dvec3(0));
-        std::swap(taken, impulses_);
-        for (glm::dvec3& impulse : taken)
-            impulse *= unit;
+        std::vector<ToolLoad> taken(impulses_.size());
+        for (std::size_t tool = 0; tool < taken.size(); ++tool)
+            taken[tool].impulse = impulses_[tool] * unit;
+        impulses_.assign(impulses_.size(), glm::dvec3(0));
         return taken;
     }
 

@@ -30,19 +30,19 @@ public:
             glDisablei(GL_BLEND, GLuint(2 + tool));
     }
 
-    std::vector<glm::dvec3> takeToolImpulses() override {
+    std::vector<ToolLoad> takeLoads() override {
         const double unit = impulseUnit(setup_);
-        std::vector<glm::dvec3> impulses;
+        std::vector<ToolLoad> loads;
         std::vector<glm::vec4> texels(textures_.layout().texels());
         for (gpu::Texture2D& texture : impulses_) {
             texture.download(texels.data(), texels.size() * sizeof texels[0]);
             glm::dvec3 sum(0);
             for (const glm::vec4& texel : texels)
                 sum += glm::dvec3(texel);
-            impulses.push_back(sum * unit);
+            loads.push_back({sum * unit, glm::dvec3(0)});
             texture.clear(glm::vec4(0));
         }
-        return impulses;
+        return loads;
     }
 
 private:

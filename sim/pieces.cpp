@@ -118,4 +118,27 @@ std::vector<glm::uvec3> freedFaces(const Lattice& lattice, const std::vector<boo
     return faces;
 }
 
+std::vector<glm::uvec3> boundaryLeft(const Lattice& lattice, const std::vector<std::uint32_t>& connections) {
+    const std::vector<bool> whole = wholeCells(lattice, connections);
+    if (std::find(whole.begin(), whole.end(), false) == whole.end())
+        return lattice.boundary;
+    // The boundary of a lattice of the whole cells alone: its outer faces are those that are left and those
+    // that were freed. Its nodes are found again by their grid coordinates.
+    std::vector<LatticeCell> cells;
+    glm::ivec3 low = lattice.nodeDims;
+    for (std::size_t i = 0; i < whole.size(); ++i)
+        if (whole[i]) {
+            cells.push_back(lattice.cells[i]);
+            low = glm::min(low, lattice.cells[i].grid);
+        }
+    if (cells.empty())
+        return {};
+    const Lattice rest = latticeFromCells(cells, lattice.spacing, lattice.origin);
+    std::vector<glm::uvec3> faces;
+    for (const glm::uvec3& t : rest.boundary)
+        faces.emplace_back(lattice.nodeAt(rest.nodes[t.x] + low), lattice.nodeAt(rest.nodes[t.y] + low),
+                           lattice.nodeAt(rest.nodes[t.z] + low));
+    return faces;
+}
+
 } // namespace serosa::sim

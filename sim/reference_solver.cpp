@@ -33,7 +33,7 @@ public:
     }
 
     const char* name() const override { return "reference"; }
-    const Lattice& lattice() const override { return *setup_.lattice; }
+    const SolverSetup& setup() const override { return setup_; }
 
     void advance(int count) override {
         for (int i = 0; i < count; ++i)
@@ -52,13 +52,13 @@ public:
         state_ = state;
     }
 
-    std::vector<glm::dvec3> takeToolImpulses() override {
-        std::vector<glm::dvec3> taken(setup_.tools.size(), glm::dvec3(0));
+    std::vector<ToolLoad> takeLoads() override {
+        std::vector<ToolLoad> taken(setup_.tools.size());
         // From lattice units a step to N s: mass h / dt.
         const double unit =
             setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
         for (std::size_t tool = 0; tool < taken.size(); ++tool)
-            taken[tool] = impulses_[tool] * unit;
+            taken[tool].impulse = impulses_[tool] * unit;
         impulses_.assign(setup_.tools.size(), glm::dvec3(0));
         return taken;
     }

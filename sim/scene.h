@@ -4,9 +4,11 @@
 // belongs are errors.
 
 #include "base/result.h"
+#include "sim/body.h"
 #include "sim/cut_motion.h"
 #include "sim/material.h"
 #include "sim/region.h"
+#include "sim/thread.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
 #include "sim/up_axis.h"
@@ -100,6 +102,8 @@ struct Scene {
     glm::dvec3 gravity{0, -9.81, 0}; // m/s2
     std::vector<Organ> organs;       // one to kMostOrgans; they do not touch each other yet
     std::vector<Tool> tools;
+    std::vector<Body> bodies;
+    std::vector<Thread> threads;
     std::vector<Cut> cuts; // of every organ
     Camera camera;
     Light light;

@@ -78,6 +78,25 @@ void addTissue(const Tissue& tissue, std::vector<Trait>& traits) {
         addMaterial(tissue.others[i], "material " + std::to_string(i + 1) + " ", traits);
 }
 
+void addShape(const RigidShape& shape, const std::string& name, std::vector<Trait>& traits) {
+    static const char* const kKinds[] = {"sphere", "capsule", "box", "hook", "half-space", "mesh"};
+    traits.push_back({name + " shape", kKinds[int(shape.kind)]});
+    traits.push_back({name + " length", traitValue({shape.length}, "m")});
+    traits.push_back({name + " bend", traitValue({shape.bend}, "m")});
+    traits.push_back({name + " middle", traitValue({shape.middle.x, shape.middle.y, shape.middle.z}, "m")});
+    traits.push_back(
+        {name + " half size", traitValue({shape.halfSize.x, shape.halfSize.y, shape.halfSize.z}, "m")});
+}
+
+void addBody(const Body& body, const std::string& name, std::vector<Trait>& traits) {
+    addShape(body.shape, name, traits);
+    traits.push_back({name + " radius", traitValue({body.shape.radius}, "m")});
+    traits.push_back({name + " at", traitValue({body.pose.at.x, body.pose.at.y, body.pose.at.z}, "m")});
+    const glm::dquat& turn = body.pose.turn;
+    traits.push_back({name + " turn", traitValue({turn.w, turn.x, turn.y, turn.z}, "")});
+    traits.push_back({name + " friction", traitValue({body.friction}, "")});
+}
+
 void addTool(const Tool& tool, const std::string& name, std::vector<Trait>& traits) {
     traits.push_back({name + " name", tool.name});
     traits.push_back({name + " mode", tool.mode == ToolMode::push ? "push" : "grasp"});
@@ -86,7 +105,12 @@ void addTool(const Tool& tool, const std::string& name, std::vector<Trait>& trai
                           bytes.f64(key.time);
                           for (int axis = 0; axis < 3; ++axis)
                               bytes.f64(key.at[axis]);
+                          for (int i = 0; i < 4; ++i)
+                              bytes.f64(key.turn[i]);
                       })});
+    addShape(tool.shape, name, traits);
+    traits.push_back({name + " friction", traitValue({tool.friction}, "")});
+    traits.push_back({name + " grip_force", traitValue({tool.gripForce}, "N")});
 }
 
 } // namespace
@@ -118,6 +142,10 @@ std::vector<Trait> setupTraits(const SolverSetup& setup) {
     traits.push_back({"tools", std::to_string(setup.tools.size())});
     for (std::size_t i = 0; i < setup.tools.size(); ++i)
         addTool(setup.tools[i], "tool " + std::to_string(i + 1), traits);
+    traits.push_back({"bodies", std::to_string(setup.bodies.size())});
+    for (std::size_t i = 0; i < setup.bodies.size(); ++i)
+        addBody(setup.bodies[i], "body " + std::to_string(i + 1), traits);
+    traits.push_back({"method", setup.method == StepMethod::implicit ? "implicit" : "explicit"});
     return traits;
 }
 

@@ -24,6 +24,7 @@
 //   x' = x + u';  then tools: x' is moved out of a pushing sphere or with a grasping one, and u' = x' - x.
 
 #include "sim/blade.h"
+#include "sim/body.h"
 #include "sim/lattice.h"
 #include "sim/lattice_state.h"
 #include "sim/material.h"
@@ -45,15 +46,26 @@ struct ClearedBits {
 /// What one stroke (with the parts that continue it) cleared: nodes ascending, bits not 0.
 using CutLayer = std::vector<ClearedBits>;
 
+/// How a solver steps. Implicit: one step a frame whatever the stiffness (docs/methods/implicit.md).
+enum class StepMethod { explicitSteps, implicit };
+
 /// All that a solver needs to know of one organ. Lattice and vectors are copied or kept by reference for its
 /// lifetime.
 struct SolverSetup {
     const Lattice* lattice = nullptr; // not null; outlives the solver
     Tissue tissue;
-    glm::dvec3 gravity{0};   // m/s2
-    double timeStep = 0;     // s
-    std::vector<bool> fixed; // one a node; empty: none
-    std::vector<Tool> tools; // at most SRS_MAX_TOOLS
+    glm::dvec3 gravity{0};    // m/s2
+    double timeStep = 0;      // s
+    std::vector<bool> fixed;  // one a node; empty: none
+    std::vector<Tool> tools;  // at most SRS_MAX_TOOLS
+    std::vector<Body> bodies; // with the tools at most SRS_MAX_COLLIDERS
+    StepMethod method = StepMethod::explicitSteps;
+};
+
+/// What a collider gave to an organ.
+struct ToolLoad {
+    glm::dvec3 impulse{0}; // N s
+    glm::dvec3 angular{0}; // N m s, about the collider's reference point at the end of each step
 };
 
 class Solver {
@@ -66,8 +78,10 @@ public:
     virtual LatticeState state() const = 0;
     /// Continues from a state (sizes must match).
     virtual void setState(const LatticeState& state) = 0;
-    /// Impulse that each tool gave to the organ since the last call, N s. One a tool.
-    virtual std::vector<glm::dvec3> takeToolImpulses() = 0;
+    /// What tools and bodies gave to the organ since the last call, one a collider. Waits for the GPU.
+    virtual std::vector<ToolLoad> takeLoads() = 0;
+    /// The tools' impulses of takeLoads(), which it takes: N s, one a tool.
+    std::vector<glm::dvec3> takeToolImpulses();
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
 
@@ -87,7 +101,8 @@ public:
     virtual Status setCutLayers(const std::vector<CutLayer>& layers);
     /// Labels of the pieces (sim/pieces.h), one a node; reads back. Errors: as cut.
     virtual Result<std::vector<std::uint32_t>> pieces() const;
-    virtual const Lattice& lattice() const = 0;
+    virtual const SolverSetup& setup() const = 0;
+    const Lattice& lattice() const { return *setup().lattice; }
 
 private:
     std::vector<std::vector<std::uint32_t>> cutLayers_; // bits that each stroke cleared, one word a node

@@ -17,7 +17,7 @@ namespace serosa::sim {
 
 class TextureSolver : public Solver {
 public:
-    const Lattice& lattice() const override { return *setup_.lattice; }
+    const SolverSetup& setup() const override { return setup_; }
     const StateTextures* textures() const override { return &textures_; }
     LatticeState state() const override { return textures_.download(step_); }
     void setState(const LatticeState& state) override;

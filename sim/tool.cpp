@@ -9,16 +9,23 @@
 
 namespace serosa::sim {
 
-glm::dvec3 Tool::centreAt(double time) const {
+RigidShape Tool::wholeShape() const {
+    RigidShape whole = shape;
+    whole.radius = radius;
+    return whole;
+}
+
+RigidPose Tool::poseAt(double time) const {
     SEROSA_CHECK(!keys.empty(), "a tool has at least one key");
     const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                         [](double t, const ToolKey& key) { return t < key.time; });
     if (after == keys.begin())
-        return keys.front().at;
+        return {keys.front().at, keys.front().turn};
     if (after == keys.end())
-        return keys.back().at;
+        return {keys.back().at, keys.back().turn};
     const ToolKey &a = after[-1], &b = after[0];
-    return a.at + (b.at - a.at) * ((time - a.time) / (b.time - a.time));
+    const double share = (time - a.time) / (b.time - a.time);
+    return {a.at + (b.at - a.at) * share, a.turn == b.turn ? a.turn : glm::slerp(a.turn, b.turn, share)};
 }
 
 bool Tool::activeAt(double time) const {

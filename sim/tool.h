@@ -1,9 +1,10 @@
 #pragma once
-// Scripted tools: a sphere that follows timed key poses, and pushes (contact) or holds what it touched
+// Scripted tools: a rigid shape that follows timed key poses, and pushes (contact) or holds what it touched
 // (grasp).
 
-#include <glm/glm.hpp>
+#include "sim/rigid_shape.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,20 +13,28 @@ namespace serosa::sim {
 enum class ToolMode { push, grasp };
 
 struct ToolKey {
-    double time;   // s
-    glm::dvec3 at; // centre, m, world
+    double time;                 // s
+    glm::dvec3 at;               // m, world: of the shape's reference point
+    glm::dquat turn{1, 0, 0, 0}; // of the shape
 };
 
 /// A push tool exists for the whole run and waits at its first and last pose. A grasp tool takes hold of the
-/// nodes inside its sphere at its first key and lets go at its last.
+/// nodes inside its shape at its first key and lets go at its last.
 struct Tool {
     std::string name;
     ToolMode mode = ToolMode::push;
-    double radius = 0.005;     // m
-    std::vector<ToolKey> keys; // at least one, strictly increasing times
+    double radius = 0.005;                                      // m: RigidShape::radius of `shape`
+    std::vector<ToolKey> keys;                                  // at least one, strictly increasing times
+    RigidShape shape;                                           // its radius is the member above
+    double friction = 0;                                        // push: Coulomb's coefficient against tissue
+    double gripForce = std::numeric_limits<double>::infinity(); // grasp, N: pulled harder, it slips
 
-    /// Centre at a time, m: linear between keys, constant before and after.
-    glm::dvec3 centreAt(double time) const;
+    /// Shape with the tool's radius.
+    RigidShape wholeShape() const;
+    /// Pose at a time: places linear, turns at an even rate between keys, constant before and after.
+    RigidPose poseAt(double time) const;
+    /// Its place.
+    glm::dvec3 centreAt(double time) const { return poseAt(time).at; }
     /// Grasp: first key <= time < last key. Push: always.
     bool activeAt(double time) const;
 };

@@ -31,15 +31,36 @@ glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool h
     return free + normal * (std::sqrt(std::max(reach * reach - aside2, 0.0)) - along);
 }
 
+namespace {
+
+RigidShape inLatticeUnits(RigidShape shape, double spacing) {
+    shape.radius /= spacing;
+    shape.length /= spacing;
+    shape.bend /= spacing;
+    shape.middle /= spacing;
+    shape.halfSize /= spacing;
+    shape.fieldScale = 1 / spacing;
+    return shape;
+}
+
+} // namespace
+
 std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step) {
     const double start = double(step) * setup.timeStep, end = double(step + 1) * setup.timeStep;
     const double tick = 1e-6 * setup.timeStep; // keys at a step's time count as reached
     std::vector<ToolMotion> motions;
     for (const Tool& tool : setup.tools) {
         ToolMotion motion;
-        motion.from = setup.lattice->toLattice(tool.centreAt(start));
-        motion.to = setup.lattice->toLattice(tool.centreAt(end));
-        motion.radius = tool.radius / setup.lattice->spacing;
+        const RigidPose from = tool.poseAt(start), to = tool.poseAt(end);
+        motion.from = setup.lattice->toLattice(from.at);
+        motion.to = setup.lattice->toLattice(to.at);
+        motion.turnFrom = from.turn;
+        motion.turnTo = to.turn;
+        motion.shape = inLatticeUnits(tool.wholeShape(), setup.lattice->spacing);
+        motion.radius = motion.shape.radius;
+        motion.friction = tool.friction;
+        motion.grip = tool.gripForce * setup.timeStep * setup.timeStep /
+                      (setup.tissue.nodeMass(setup.lattice->spacing) * setup.lattice->spacing);
         const bool active = tool.activeAt(start + tick);
         if (tool.mode == ToolMode::push) {
             motion.mode = SRS_TOOL_PUSH;

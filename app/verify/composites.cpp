@@ -134,7 +134,11 @@ Status tension(const VerifyOptions& options, CheckList& checks, double poisson) 
         setup.fixed.push_back(along(node) < -0.5 * beam.length + 1.5);
     const glm::dvec3 end = lattice.toWorld(beam.middle + glm::dvec3(0, 0, 0.5 * beam.length + 5.5));
     const double pause = 0.6, radius = 7.2 * kSpacing; // reaches the last sections of nodes
-    sim::Tool forceps{"forceps", sim::ToolMode::grasp, radius, {{0, end}}};
+    sim::Tool forceps;
+    forceps.name = "forceps";
+    forceps.mode = sim::ToolMode::grasp;
+    forceps.radius = radius;
+    forceps.keys = {{0, end}};
     const std::vector<double> stretches = {0.035, 0.08, 0.125, 0.17}; // of the whole length
     for (std::size_t i = 0; i < stretches.size(); ++i) {
         const glm::dvec3 at = end + glm::dvec3(0, 0, stretches[i] * beam.length * kSpacing);

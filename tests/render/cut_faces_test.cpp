@@ -1,6 +1,7 @@
 // What is drawn of an organ that was cut: nothing spans the gap, nothing else is missing.
 #include "render/cut_faces.h"
 #include "sim/blade.h"
+#include "sim/pieces.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ TEST(CutFacesDrawn, allFacesWhereNothingIsCut) {
     const std::vector<bool> left =
         render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
     EXPECT_EQ(std::count(left.begin(), left.end(), false), 0);
-    EXPECT_EQ(render::boundaryLeft(body.lattice, body.connections), body.lattice.boundary);
+    EXPECT_EQ(sim::boundaryLeft(body.lattice, body.connections), body.lattice.boundary);
 }
 
 TEST(CutFacesDrawn, noFaceSpansACut) {
@@ -69,7 +70,7 @@ TEST(CutFacesDrawn, noFaceSpansACut) {
         }
         // One-to-one: every edge of the drawn triangles is shared by as many in each direction (closed).
         std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-        for (const glm::uvec3& t : render::boundaryLeft(body.lattice, body.connections))
+        for (const glm::uvec3& t : sim::boundaryLeft(body.lattice, body.connections))
             for (int i = 0; i < 3; ++i) {
                 ++edges[{t[i], t[(i + 1) % 3]}];
                 --edges[{t[(i + 1) % 3], t[i]}];
