@@ -25,7 +25,7 @@ struct Tool {
     ToolMode mode = ToolMode::push;
     double radius = 0.005;                                      // m: RigidShape::radius of `shape`
     std::vector<ToolKey> keys;                                  // at least one, strictly increasing times
-    RigidShape shape;                                           // its radius is the member above
+    RigidShape shape = {};                                      // its radius is the member above
     double friction = 0;                                        // push: Coulomb's coefficient against tissue
     double gripForce = std::numeric_limits<double>::infinity(); // grasp, N: pulled harder, it slips
 
