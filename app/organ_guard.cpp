@@ -30,10 +30,10 @@ void OrganGuard::restart(int frame) {
 void OrganGuard::account(int frame) {
     if (accounted_ == frame)
         return;
-    const std::vector<glm::dvec3> impulses = organ_.solver->takeToolImpulses();
-    watchdog_.addWork(accounted_ * frameTime_, frame * frameTime_, impulses);
-    for (std::size_t i = 0; i < impulses.size(); ++i)
-        impulses_[i] += impulses[i];
+    const std::vector<sim::ToolLoad> loads = organ_.solver->takeLoads();
+    watchdog_.addWork(accounted_ * frameTime_, frame * frameTime_, loads);
+    for (std::size_t i = 0; i < impulses_.size(); ++i)
+        impulses_[i] += loads[i].impulse;
     accounted_ = frame;
 }
 
@@ -76,7 +76,7 @@ std::optional<sim::Alarm> OrganGuard::retrace(Good& good, std::int64_t last, int
         solver.advance(int(next - step));
         Good after{{}, good.watchdog};
         after.watchdog.addWork(double(step) * organ_.setup.timeStep, double(next) * organ_.setup.timeStep,
-                               solver.takeToolImpulses());
+                               solver.takeLoads());
         for (const sim::CutList::Entry& entry : cuts_.entries())
             if (entry.step > step && entry.step <= next) {
                 const Status cut = solver.cut(entry.stroke);

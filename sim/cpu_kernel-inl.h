@@ -88,72 +88,11 @@ HWY_INLINE void storePackedNormals(Lanes d, Vec x, Vec y, Vec z, std::uint32_t* 
     hn::Store(hn::Or(low, hn::Or(middle, high)), du, out);
 }
 
-/// Twin of ToolMotion::apply (sim/tool_motion.cpp) for the lanes that may move; `changed` gathers those that
-/// it moved.
-HWY_INLINE void applyTool(Lanes d, const CpuStep& step, int tool, std::size_t slot, hn::Mask<Lanes> movable,
-                          Vec x, Vec y, Vec z, Vec& px, Vec& py, Vec& pz, hn::Mask<Lanes>& changed,
-                          double* HWY_RESTRICT impulse) {
-    const CpuTool& motion = step.tools[tool];
-    if (motion.mode != SRS_TOOL_PUSH && motion.mode != SRS_TOOL_GRASP)
-        return;
-    const Vec ax = hn::Sub(px, hn::Set(d, motion.to[0])), ay = hn::Sub(py, hn::Set(d, motion.to[1])),
-              az = hn::Sub(pz, hn::Set(d, motion.to[2]));
-    const Vec distance2 = hn::MulAdd(az, az, hn::MulAdd(ay, ay, hn::Mul(ax, ax)));
-    // The sphere touches the surface, which lies that far above the node.
-    Vec reach = hn::Max(hn::Add(hn::Set(d, motion.radius), hn::Load(d, step.depth + slot)), hn::Zero(d));
-    hn::Mask<Lanes> touched;
-    if (motion.mode == SRS_TOOL_PUSH) {
-        touched = hn::Lt(distance2, hn::Mul(reach, reach));
-    } else {
-        const hn::Rebind<std::uint32_t, Lanes> du;
-        touched =
-            hn::RebindMask(d, hn::Eq(hn::Load(du, step.heldBy + slot), hn::Set(du, unsigned(tool + 1))));
-    }
-    touched = hn::And(touched, movable);
-    if (hn::AllFalse(d, touched))
-        return;
-    Vec mx, my, mz;
-    if (motion.mode == SRS_TOOL_GRASP) {
-        mx = hn::Add(x, hn::Set(d, motion.move[0]));
-        my = hn::Add(y, hn::Set(d, motion.move[1]));
-        mz = hn::Add(z, hn::Set(d, motion.move[2]));
-    } else {
-        // Along the normal at the step's start: sim/tool_motion.cpp.
-        Vec nx = hn::Sub(x, hn::Set(d, motion.to[0] - motion.move[0])),
-            ny = hn::Sub(y, hn::Set(d, motion.to[1] - motion.move[1])),
-            nz = hn::Sub(z, hn::Set(d, motion.to[2] - motion.move[2]));
-        const Vec start2 = hn::MulAdd(nz, nz, hn::MulAdd(ny, ny, hn::Mul(nx, nx)));
-        const auto apart = hn::Gt(start2, hn::Set(d, 1e-12f));
-        const Vec start = hn::Sqrt(hn::IfThenElse(apart, start2, hn::Set(d, 1.0f)));
-        reach = hn::Min(reach, hn::Add(hn::IfThenElseZero(apart, start), hn::Set(d, float(SRS_EJECTION))));
-        touched = hn::And(touched, hn::Lt(distance2, hn::Mul(reach, reach)));
-        nx = hn::IfThenElseZero(apart, hn::Div(nx, start));
-        ny = hn::IfThenElse(apart, hn::Div(ny, start), hn::Set(d, 1.0f));
-        nz = hn::IfThenElseZero(apart, hn::Div(nz, start));
-        const Vec along = hn::MulAdd(az, nz, hn::MulAdd(ay, ny, hn::Mul(ax, nx)));
-        const Vec aside2 = hn::NegMulAdd(along, along, distance2);
-        const Vec height =
-            hn::Sqrt(hn::Max(hn::MulSub(reach, reach, hn::Max(aside2, hn::Zero(d))), hn::Zero(d)));
-        const Vec out = hn::Sub(height, along);
-        mx = hn::MulAdd(nx, out, px);
-        my = hn::MulAdd(ny, out, py);
-        mz = hn::MulAdd(nz, out, pz);
-    }
-    const Vec mass = hn::IfThenElseZero(touched, hn::Load(d, step.mass + slot));
-    impulse[0] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(mx, px)))));
-    impulse[1] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(my, py)))));
-    impulse[2] += double(hn::GetLane(hn::SumOfLanes(d, hn::Mul(mass, hn::Sub(mz, pz)))));
-    px = hn::IfThenElse(touched, mx, px);
-    py = hn::IfThenElse(touched, my, py);
-    pz = hn::IfThenElse(touched, mz, pz);
-    changed = hn::Or(changed, touched);
-}
-
 /// \param kCells what a pass over cells left enters; plain springs have a loop without it.
 template <Damping kDamping, bool kNormals, bool kCells>
-void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBlock,
-               double* HWY_RESTRICT impulses) {
+void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBlock, float* longest2) {
     const Lanes d;
+    Vec fastest2 = hn::Zero(d);
     const std::size_t lanes = hn::Lanes(d);
     HWY_ALIGN float stiffWeights[kCells ? SRS_NEIGHBOURS * kMostLanes : 1];
     for (std::size_t block = firstBlock; block < lastBlock; ++block) {
@@ -223,15 +162,8 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
         vx = hn::IfThenElseZero(movable, vx);
         vy = hn::IfThenElseZero(movable, vy);
         vz = hn::IfThenElseZero(movable, vz);
-        Vec px = hn::Add(x, vx), py = hn::Add(y, vy), pz = hn::Add(z, vz);
-        if (step.toolCount > 0) {
-            auto changed = hn::MaskFromVec(hn::Zero(d));
-            for (int tool = 0; tool < step.toolCount; ++tool)
-                applyTool(d, step, tool, slot, movable, x, y, z, px, py, pz, changed, impulses + 3 * tool);
-            vx = hn::IfThenElse(changed, hn::Sub(px, x), vx);
-            vy = hn::IfThenElse(changed, hn::Sub(py, y), vy);
-            vz = hn::IfThenElse(changed, hn::Sub(pz, z), vz);
-        }
+        const Vec px = hn::Add(x, vx), py = hn::Add(y, vy), pz = hn::Add(z, vz);
+        fastest2 = hn::Max(fastest2, hn::MulAdd(vz, vz, hn::MulAdd(vy, vy, hn::Mul(vx, vx))));
         hn::Store(px, d, step.nextPositions[0] + slot);
         hn::Store(py, d, step.nextPositions[1] + slot);
         hn::Store(pz, d, step.nextPositions[2] + slot);
@@ -239,25 +171,26 @@ void stepRange(const CpuStep& step, std::size_t firstBlock, std::size_t lastBloc
         hn::Store(vy, d, step.nextIncrements[1] + slot);
         hn::Store(vz, d, step.nextIncrements[2] + slot);
     }
+    *longest2 = hn::GetLane(hn::MaxOfLanes(d, fastest2));
 }
 
 template <Damping kDamping>
-void stepDamped(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
+void stepDamped(const CpuStep& step, std::size_t first, std::size_t last, float* longest2) {
     if (step.bits)
-        step.withNormals ? stepRange<kDamping, true, true>(step, first, last, impulses)
-                         : stepRange<kDamping, false, true>(step, first, last, impulses);
+        step.withNormals ? stepRange<kDamping, true, true>(step, first, last, longest2)
+                         : stepRange<kDamping, false, true>(step, first, last, longest2);
     else
-        step.withNormals ? stepRange<kDamping, true, false>(step, first, last, impulses)
-                         : stepRange<kDamping, false, false>(step, first, last, impulses);
+        step.withNormals ? stepRange<kDamping, true, false>(step, first, last, longest2)
+                         : stepRange<kDamping, false, false>(step, first, last, longest2);
 }
 
-void stepBlocks(const CpuStep& step, std::size_t first, std::size_t last, double* impulses) {
+void stepBlocks(const CpuStep& step, std::size_t first, std::size_t last, float* longest2) {
     if (step.dampers)
-        stepDamped<Damping::own>(step, first, last, impulses);
+        stepDamped<Damping::own>(step, first, last, longest2);
     else if (step.damping > 0)
-        stepDamped<Damping::shared>(step, first, last, impulses);
+        stepDamped<Damping::shared>(step, first, last, longest2);
     else
-        stepDamped<Damping::none>(step, first, last, impulses);
+        stepDamped<Damping::none>(step, first, last, longest2);
 }
 
 CpuKernel kernelOfTarget() {

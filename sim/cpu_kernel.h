@@ -10,13 +10,6 @@
 
 namespace serosa::sim {
 
-/// A tool during one step, lattice units (float32 of ToolMotion).
-struct CpuTool {
-    int mode = SRS_TOOL_NONE;
-    float to[3] = {}, move[3] = {}; // centre at the end, motion in the step
-    float radius = 0;
-};
-
 /// Arrays hold one value a slot, in lattice units, where nothing else is said.
 struct CpuStep {
     const float* positions[3];
@@ -25,15 +18,12 @@ struct CpuStep {
     float* nextIncrements[3];
     const float* weights;      // a block: 18 directions of `lanes` weights w; 0 where there is no spring
     const float* acceleration; // dt^2 k/(rho h^3) / mass share; 0 at fixed nodes and pads: they do not move
-    const float* mass;         // mass shares
-    const float* depth;        // below the surface at rest: Lattice::restDepth
-    const std::uint32_t* heldBy;
-    std::uint32_t* normals;   // packed
-    const std::int32_t* rows; // eight a block
-    std::size_t first;        // slot of the first block
-    float drag;               // 1 - air drag dt
-    float damping;            // damping time / dt, of all springs; unless
-    const float* dampers;     // not null: as `weights`, damping constants over dt and squared rest length
+    std::uint32_t* normals;    // packed
+    const std::int32_t* rows;  // eight a block
+    std::size_t first;         // slot of the first block
+    float drag;                // 1 - air drag dt
+    float damping;             // damping time / dt, of all springs; unless
+    const float* dampers;      // not null: as `weights`, damping constants over dt and squared rest length
 
     // What a pass over the cells left (CpuCellPass); null: there is none.
     const std::uint32_t* bits;  // its connections, and kRow bits
@@ -42,8 +32,6 @@ struct CpuStep {
 
     float gravity[3]; // dt^2 g / h
     bool withNormals; // write eq. 3
-    int toolCount;
-    CpuTool tools[SRS_MAX_TOOLS];
 };
 
 // Above the 18 connections: rows beside a node (sim/cpu_layout.h) that have a node at its x.
@@ -86,9 +74,8 @@ struct CpuCellPass {
 struct CpuKernel {
     const char* target; // the instruction set, as Highway names it
     std::size_t lanes;
-    /// Steps the blocks first .. last - 1 and adds to `impulses` (three a tool) what each tool gave: mass
-    /// shares times lattice units a step.
-    void (*step)(const CpuStep& step, std::size_t first, std::size_t last, double* impulses);
+    /// Steps the blocks first .. last - 1, and says the squared length of their longest increment.
+    void (*step)(const CpuStep& step, std::size_t first, std::size_t last, float* longest2);
     /// Writes the stretches of the blocks first .. last - 1; only where cells stiffen.
     void (*stretch)(const CpuCellPass& pass, std::size_t first, std::size_t last);
     /// Then the stiffened constants and the forces of their cells: needs the stretches of all blocks.

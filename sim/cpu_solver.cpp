@@ -1,20 +1,21 @@
 // MS05 3.1 on all cores: structure-of-arrays state in two halves, ping-pong, cut into chunks of blocks that
-// threads take in any order. No chunk reads what another writes in the same step, and what tools gave is
-// summed chunk after chunk: threads and their timing change no bit. The arithmetic is in sim/cpu_kernel.cpp.
-// Tissue with a volumetric term or that stiffens has passes over its cells before the step (sim/cpu_cells.h).
+// threads take in any order. No chunk reads what another writes in the same step: threads and their timing
+// change no bit. The arithmetic is in sim/cpu_kernel.cpp; contact follows (sim/contact_stage.h). Tissue with
+// a volumetric term or that stiffens has passes over its cells before the step (sim/cpu_cells.h).
 #include "sim/cpu_solver.h"
 
+#include "sim/contact_stage.h"
 #include "sim/cpu_arrays.h"
 #include "sim/cpu_cells.h"
 #include "sim/cpu_kernel.h"
 #include "sim/cpu_layout.h"
 #include "sim/tissue_field.h"
-#include "sim/tool_motion.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace serosa::sim {
@@ -23,6 +24,26 @@ namespace {
 
 constexpr std::size_t kChunkSlots =
     512; // a chunk: about 5 microseconds of work, and all in a first-level cache
+
+/// The halves of the state before and after the forces of a step.
+class SlotNodes final : public ContactNodes {
+public:
+    SlotNodes(const CpuLayout& layout, const VectorArray& before, const VectorArray& after,
+              const VectorArray& increments)
+        : layout_(layout), before_(before), after_(after), increments_(increments) {}
+    glm::dvec3 start(std::uint32_t node) const override { return before_.get(slotOf(node)); }
+    glm::dvec3 end(std::uint32_t node) const override { return after_.get(slotOf(node)); }
+    void move(std::uint32_t node, const glm::dvec3& by) override {
+        const std::size_t slot = slotOf(node);
+        after_.set(slot, glm::vec3(glm::dvec3(after_.get(slot)) + by));
+        increments_.set(slot, glm::vec3(glm::dvec3(increments_.get(slot)) + by));
+    }
+
+private:
+    std::size_t slotOf(std::uint32_t node) const { return std::size_t(layout_.slotOfNode[node]); }
+    const CpuLayout& layout_;
+    const VectorArray &before_, &after_, &increments_;
+};
 
 class CpuSolver final : public Solver {
 public:
@@ -33,20 +54,17 @@ public:
           positions_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
           increments_{VectorArray(layout_.slots()), VectorArray(layout_.slots())},
           weights_(layout_.blocks() * SRS_NEIGHBOURS * layout_.lanes), acceleration_(layout_.slots()),
-          mass_(layout_.slots()), depth_(layout_.slots()), normals_(layout_.slots()),
-          heldBy_(layout_.slots()), blocksPerChunk_(std::max<std::size_t>(1, kChunkSlots / layout_.lanes)),
-          chunks_((layout_.blocks() + blocksPerChunk_ - 1) / blocksPerChunk_),
-          chunkImpulses_(chunks_ * setup.tools.size() * 3), impulses_(setup.tools.size(), glm::dvec3(0)) {
+          normals_(layout_.slots()), heldBy_(setup.lattice->nodeCount()),
+          contact_(setup, field_.massShares()),
+          blocksPerChunk_(std::max<std::size_t>(1, kChunkSlots / layout_.lanes)),
+          chunks_((layout_.blocks() + blocksPerChunk_ - 1) / blocksPerChunk_), chunkLongest2_(chunks_) {
         const Lattice& lattice = *setup.lattice;
         const double h = lattice.spacing, dt = setup.timeStep;
         const double acceleration = dt * dt * setup.tissue.stiffnessOverMass(h);
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
             const std::size_t slot = slotOf(node);
-            const double mass = field_.massShare(node);
             const bool fixed = !setup.fixed.empty() && setup.fixed[node];
-            mass_[slot] = float(mass);
-            depth_[slot] = float(lattice.restDepth(node));
-            acceleration_[slot] = fixed ? 0.0F : float(acceleration / mass);
+            acceleration_[slot] = fixed ? 0.0F : float(acceleration / field_.massShare(node));
         }
         if (setup.tissue.ownDampers())
             dampers_.emplace(layout_.blocks() * SRS_NEIGHBOURS * layout_.lanes);
@@ -78,8 +96,8 @@ public:
             state.positions.emplace_back(positions_[current_].get(slot));
             state.increments.emplace_back(increments_[current_].get(slot));
             state.normals.push_back(normals_[slot]);
-            state.heldBy.push_back(heldBy_[slot]);
         }
+        state.heldBy = heldBy_;
         return state;
     }
 
@@ -93,6 +111,7 @@ public:
             connections_ = state.connections;
             const auto& left = connections_.empty() ? setup_.lattice->connections : connections_;
             setWeights(left);
+            contact_.connect(left);
             if (cells_)
                 cells_->connect(left);
         }
@@ -101,20 +120,12 @@ public:
             positions_[current_].set(slot, glm::vec3(state.positions[node]));
             increments_[current_].set(slot, glm::vec3(state.increments[node]));
             normals_[slot] = state.normals[node];
-            heldBy_[slot] = state.heldBy[node];
         }
+        heldBy_ = state.heldBy;
+        contact_.reset();
     }
 
-    std::vector<ToolLoad> takeLoads() override {
-        // From mass shares times lattice units a step to N s.
-        const double unit =
-            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
-        std::vector<ToolLoad> taken(impulses_.size());
-        for (std::size_t tool = 0; tool < taken.size(); ++tool)
-            taken[tool].impulse = impulses_[tool] * unit;
-        impulses_.assign(impulses_.size(), glm::dvec3(0));
-        return taken;
-    }
+    std::vector<ToolLoad> takeLoads() override { return contact_.takeLoads(); }
 
 private:
     std::size_t slotOf(std::size_t node) const { return std::size_t(layout_.slotOfNode[node]); }
@@ -137,7 +148,7 @@ private:
         }
     }
 
-    CpuStep stepParameters(const std::vector<ToolMotion>& tools, bool withNormals) const {
+    CpuStep stepParameters(bool withNormals) const {
         const double h = setup_.lattice->spacing, dt = setup_.timeStep;
         CpuStep step{};
         for (int axis = 0; axis < 3; ++axis) {
@@ -149,9 +160,6 @@ private:
         }
         step.weights = weights_.get();
         step.acceleration = acceleration_.get();
-        step.mass = mass_.get();
-        step.depth = depth_.get();
-        step.heldBy = heldBy_.get();
         step.normals = normals_.get();
         step.rows = layout_.rows.front().data();
         step.first = layout_.first;
@@ -161,16 +169,6 @@ private:
         if (cells_)
             cells_->enter(step);
         step.withNormals = withNormals;
-        step.toolCount = int(tools.size());
-        for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-            CpuTool& to = step.tools[tool];
-            to.mode = tools[tool].mode;
-            to.radius = float(tools[tool].radius);
-            for (int axis = 0; axis < 3; ++axis) {
-                to.to[axis] = float(tools[tool].to[axis]);
-                to.move[axis] = float(tools[tool].to[axis] - tools[tool].from[axis]);
-            }
-        }
         return step;
     }
 
@@ -183,10 +181,7 @@ private:
     }
 
     void takeStep(bool withNormals) {
-        const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-        updateHeld(tools);
-        const CpuStep step = stepParameters(tools, withNormals);
-        std::fill(chunkImpulses_.begin(), chunkImpulses_.end(), 0.0);
+        const CpuStep step = stepParameters(withNormals);
         if (cells_) {
             const CpuCellPass pass = cells_->pass(positions_[current_]);
             if (cells_->stiffens())
@@ -197,22 +192,16 @@ private:
                 [&](std::size_t, std::size_t first, std::size_t last) { kernel_.cells(pass, first, last); });
         }
         forEveryChunk([&](std::size_t chunk, std::size_t first, std::size_t last) {
-            kernel_.step(step, first, last, chunkImpulses_.data() + chunk * impulses_.size() * 3);
+            kernel_.step(step, first, last, &chunkLongest2_[chunk]);
         });
-        for (std::size_t i = 0; i < chunkImpulses_.size(); ++i)
-            impulses_[i / 3 % impulses_.size()][glm::length_t(i % 3)] += chunkImpulses_[i];
+        if (!contact_.empty()) {
+            SlotNodes nodes(layout_, positions_[current_], positions_[1 - current_],
+                            increments_[1 - current_]);
+            const float longest2 = *std::max_element(chunkLongest2_.begin(), chunkLongest2_.end());
+            contact_.run(step_, nodes, std::sqrt(double(longest2)) * 1.000001, heldBy_);
+        }
         current_ = 1 - current_;
         ++step_;
-    }
-
-    void updateHeld(const std::vector<ToolMotion>& tools) {
-        if (std::none_of(tools.begin(), tools.end(),
-                         [](const ToolMotion& tool) { return tool.closes || tool.opens; }))
-            return;
-        LatticeState now = state();
-        updateHeldNodes(setup_, tools, now);
-        for (std::size_t node = 0; node < now.heldBy.size(); ++node)
-            heldBy_[slotOf(node)] = now.heldBy[node];
     }
 
     SolverSetup setup_;
@@ -225,11 +214,12 @@ private:
     VectorArray positions_[2], increments_[2]; // lattice units
     SlotArray<float> weights_;                 // a block: 18 directions of `lanes` weights
     std::optional<SlotArray<float>> dampers_;  // the same: c/k over dt and squared rest length; or none
-    SlotArray<float> acceleration_, mass_, depth_;
-    SlotArray<std::uint32_t> normals_, heldBy_;
+    SlotArray<float> acceleration_;
+    SlotArray<std::uint32_t> normals_;
+    std::vector<std::uint32_t> heldBy_; // a node
+    ContactStage contact_;
     std::size_t blocksPerChunk_, chunks_;
-    std::vector<double> chunkImpulses_;      // a chunk: three a tool
-    std::vector<glm::dvec3> impulses_;       // mass shares times lattice units a step
+    std::vector<float> chunkLongest2_;       // of the increments, a chunk
     std::vector<std::uint32_t> connections_; // as LatticeState::connections
     int current_ = 0;
     std::int64_t step_ = 0;

@@ -87,7 +87,7 @@ ShapeSample DistanceField::sampleInGrid(const glm::dvec3& own) const {
     glm::ivec3 cell;
     glm::dvec3 share;
     for (int axis = 0; axis < 3; ++axis) {
-        cell[axis] = std::clamp(int(std::floor(at[axis])), 0, dims_[axis] - 2);
+        cell[axis] = at[axis] > 0 ? std::min(int(std::min(at[axis], 1e3)), dims_[axis] - 2) : 0; // NaN: 0
         share[axis] = std::clamp(at[axis] - cell[axis], 0.0, 1.0);
     }
     double value = 0;

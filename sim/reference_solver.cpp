@@ -1,23 +1,40 @@
 // The oracle: MS05 eq. 1 in double precision with plain loops, one node after another. What a step does
 // stands in sim/solver.h; the fragment solver's twin is shaders/solver_kernel.glsl.
 #include "shaders/shared_constants.h"
+#include "sim/contact_stage.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
 #include "sim/stiffening.h"
 #include "sim/tissue_field.h"
-#include "sim/tool_motion.h"
 #include "sim/volume_term.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace serosa::sim {
 
 namespace {
 
+class StepNodes final : public ContactNodes {
+public:
+    StepNodes(const LatticeState& before, LatticeState& after) : before_(before), after_(after) {}
+    glm::dvec3 start(std::uint32_t node) const override { return before_.positions[node]; }
+    glm::dvec3 end(std::uint32_t node) const override { return after_.positions[node]; }
+    void move(std::uint32_t node, const glm::dvec3& by) override {
+        after_.positions[node] += by;
+        after_.increments[node] += by;
+    }
+
+private:
+    const LatticeState& before_;
+    LatticeState& after_;
+};
+
 class ReferenceSolver final : public Solver {
 public:
     explicit ReferenceSolver(const SolverSetup& setup)
-        : setup_(setup), field_(*setup.lattice, setup.tissue), state_(restState(*setup.lattice)) {
+        : setup_(setup), field_(*setup.lattice, setup.tissue), state_(restState(*setup.lattice)),
+          mass_(field_.massShares()), contact_(setup, mass_) {
         const Lattice& lattice = *setup.lattice;
         const std::size_t count = lattice.nodeCount();
         if (setup_.fixed.empty())
@@ -25,11 +42,7 @@ public:
         neighbours_.resize(count * SRS_NEIGHBOURS);
         weights_.resize(count * SRS_NEIGHBOURS);
         damping_.resize(count * SRS_NEIGHBOURS);
-        mass_.resize(count);
-        for (std::size_t node = 0; node < count; ++node)
-            mass_[node] = field_.massShare(node);
         connect(lattice.connections);
-        impulses_.assign(setup_.tools.size(), glm::dvec3(0));
     }
 
     const char* name() const override { return "reference"; }
@@ -50,18 +63,10 @@ public:
         if (cut || !state_.connections.empty())
             connect(cut ? state.connections : setup_.lattice->connections);
         state_ = state;
+        contact_.reset();
     }
 
-    std::vector<ToolLoad> takeLoads() override {
-        std::vector<ToolLoad> taken(setup_.tools.size());
-        // From lattice units a step to N s: mass h / dt.
-        const double unit =
-            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
-        for (std::size_t tool = 0; tool < taken.size(); ++tool)
-            taken[tool].impulse = impulses_[tool] * unit;
-        impulses_.assign(setup_.tools.size(), glm::dvec3(0));
-        return taken;
-    }
+    std::vector<ToolLoad> takeLoads() override { return contact_.takeLoads(); }
 
 private:
     /// Springs and whole cells by what cuts left of the lattice's connections.
@@ -75,6 +80,7 @@ private:
                 weights_[slot] = connected ? field_.springWeight(node, d) : 0;
                 damping_[slot] = connected ? field_.dampingWeight(node, d) : 0;
             }
+        contact_.connect(connections);
         volume_ = VolumeTerm(lattice, setup_.tissue, connections);
         stiffening_ = Stiffening(lattice, setup_.tissue, connections);
     }
@@ -93,8 +99,6 @@ private:
         const double acceleration = dt * dt * setup_.tissue.stiffnessOverMass(lattice.spacing);
         const double drag = 1 - setup_.tissue.airDrag * dt;
         const glm::dvec3 gravity = setup_.gravity * (dt * dt / lattice.spacing);
-        const std::vector<ToolMotion> tools = toolMotions(setup_, state_.step);
-        updateHeldNodes(setup_, tools, state_);
 
         const std::vector<glm::dvec3>& x = state_.positions;
         const std::vector<glm::dvec3>& u = state_.increments;
@@ -104,6 +108,7 @@ private:
         if (!stiffening_.empty())
             stiffen(cellFactors);
         volume_.addForces(x, pressure_, cellFactors);
+        double fastest2 = 0;
         for (std::size_t node = 0; node < x.size(); ++node) {
             glm::dvec3 force = pressure_[node], normal(0);
             for (std::size_t slot = node * SRS_NEIGHBOURS; slot < (node + 1) * SRS_NEIGHBOURS; ++slot) {
@@ -123,17 +128,12 @@ private:
                 next.increments[node] = glm::dvec3(0);
                 continue;
             }
-            const glm::dvec3 free = x[node] + drag * u[node] + acceleration / mass_[node] * force + gravity;
-            glm::dvec3 moved = free;
-            for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-                const glm::dvec3 before = moved;
-                moved = tools[tool].apply(x[node], moved, state_.heldBy[node] == tool + 1,
-                                          lattice.restDepth(node));
-                impulses_[tool] += mass_[node] * (moved - before);
-            }
-            next.positions[node] = moved;
-            next.increments[node] = moved - x[node];
+            next.increments[node] = drag * u[node] + acceleration / mass_[node] * force + gravity;
+            next.positions[node] = x[node] + next.increments[node];
+            fastest2 = std::max(fastest2, glm::dot(next.increments[node], next.increments[node]));
         }
+        StepNodes nodes(state_, next);
+        contact_.run(state_.step, nodes, std::sqrt(fastest2), next.heldBy);
         next.step = state_.step + 1;
         state_ = std::move(next);
     }
@@ -141,14 +141,14 @@ private:
     SolverSetup setup_;
     TissueField field_;
     LatticeState state_;
+    std::vector<double> mass_; // share of a full node's
+    ContactStage contact_;
     std::vector<std::int64_t> neighbours_; // 18 a node, -1 where none
     std::vector<double> weights_;          // 18 a node, 0 where none
     std::vector<double> damping_;          // the same: TissueField::dampingWeight, s
-    std::vector<double> mass_;             // share of a full node's
     VolumeTerm volume_;
     Stiffening stiffening_;
     std::vector<glm::dvec3> pressure_; // the volumetric term's forces, k h
-    std::vector<glm::dvec3> impulses_; // mass shares times lattice units a step
 };
 
 } // namespace

@@ -26,6 +26,13 @@ double TissueField::sumCells(std::size_t node, int d, Share share) const {
     return sum / (255.0 * (d < 6 ? 4.0 : 2.0));
 }
 
+std::vector<double> TissueField::massShares() const {
+    std::vector<double> shares;
+    for (std::size_t node = 0; node < lattice_->nodeCount(); ++node)
+        shares.push_back(massShare(node));
+    return shares;
+}
+
 double TissueField::massShare(std::size_t node) const {
     double sum = 0;
     for (std::size_t octant = 0; octant < 8; ++octant)

@@ -23,6 +23,7 @@ public:
     }
     /// In units of rho h^3 of material 0.
     double massShare(std::size_t node) const;
+    std::vector<double> massShares() const; // one a node
     /// In units of k of material 0. 0 where the lattice has no connection.
     /// \param cellFactors one a cell: how many times as stiff it is (sim/stiffening.h); empty: 1
     double springWeight(std::size_t node, int d, const std::vector<double>& cellFactors = {}) const;

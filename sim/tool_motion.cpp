@@ -1,49 +1,28 @@
-// Contact moves a node out of the sphere along the normal that it had at the step's start; the increment that
-// follows from it ends the approach and keeps the slide. Relative to the tool a node then never moves further
-// than it would have without contact: along the radius at the end of the step, a fast node that crosses a
-// part of the sphere would leave it with more energy than it came with. What lies inside already, let go by a
-// grasp there, comes out slowly, not in one step. What touches is the organ's surface, not its nodes: those
-// of partly filled cells lie up to a spacing outside of it and may enter the sphere by as much, those inside
-// are kept off it by their depth. Without that the weak outer cells are crushed flat between the sphere and
-// the full ones below, and fold. Grasped nodes move with the sphere.
+// What touches is the organ's surface, not its nodes: those of partly filled cells lie up to a spacing
+// outside of it and may enter a tool by as much, those inside are kept off it by their depth. Without that
+// the weak outer cells are crushed flat between a tool and the full ones below, and fold. Grasped nodes move
+// with their tool.
 #include "sim/tool_motion.h"
 
 #include "shaders/shared_constants.h"
-
-#include <algorithm>
-#include <cmath>
+#include "sim/contact_point.h"
+#include "sim/shape_distance.h"
 
 namespace serosa::sim {
 
 glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool held, double depth) const {
     if (mode == SRS_TOOL_GRASP)
-        return held ? x + (to - from) : free;
+        return held ? carried(x) : free;
     if (mode != SRS_TOOL_PUSH)
         return free;
-    const glm::dvec3 away = free - to;
-    const glm::dvec3 start = x - from;
-    const double distance = glm::length(away), apart = glm::length(start);
-    const double reach = std::min(std::max(radius + depth, 0.0), apart + SRS_EJECTION);
-    if (!(distance < reach)) // what is no number stays so: a tool must not hide it
-        return free;
-    const glm::dvec3 normal = apart > 1e-6 ? start / apart : glm::dvec3(0, 1, 0);
-    const double along = glm::dot(away, normal), aside2 = std::max(distance * distance - along * along, 0.0);
-    return free + normal * (std::sqrt(std::max(reach * reach - aside2, 0.0)) - along);
+    RigidShape whole = shape;
+    whole.radius = radius;
+    const ContactShape collider{whole, thinnestHalfWidth(whole), friction};
+    const glm::dvec3 y0 = ownAtStart(x), y1 = ownAtEnd(free);
+    const glm::dvec3 move = pointContact(collider, y0, y1, contactDepthFor(depth, collider.thin),
+                                         sweepSamples(glm::distance(y0, y1), collider.thin));
+    return free + turnTo * move;
 }
-
-namespace {
-
-RigidShape inLatticeUnits(RigidShape shape, double spacing) {
-    shape.radius /= spacing;
-    shape.length /= spacing;
-    shape.bend /= spacing;
-    shape.middle /= spacing;
-    shape.halfSize /= spacing;
-    shape.fieldScale = 1 / spacing;
-    return shape;
-}
-
-} // namespace
 
 std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step) {
     const double start = double(step) * setup.timeStep, end = double(step + 1) * setup.timeStep;
@@ -56,7 +35,7 @@ std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step)
         motion.to = setup.lattice->toLattice(to.at);
         motion.turnFrom = from.turn;
         motion.turnTo = to.turn;
-        motion.shape = inLatticeUnits(tool.wholeShape(), setup.lattice->spacing);
+        motion.shape = scaledShape(tool.wholeShape(), 1 / setup.lattice->spacing);
         motion.radius = motion.shape.radius;
         motion.friction = tool.friction;
         motion.grip = tool.gripForce * setup.timeStep * setup.timeStep /
@@ -75,6 +54,25 @@ std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step)
     return motions;
 }
 
+std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t step) {
+    std::vector<ToolMotion> motions = toolMotions(setup, step);
+    for (const Body& body : setup.bodies) {
+        ToolMotion motion;
+        motion.mode = SRS_TOOL_PUSH;
+        motion.from = motion.to = setup.lattice->toLattice(body.pose.at);
+        motion.turnFrom = motion.turnTo = body.pose.turn;
+        motion.shape = scaledShape(body.shape, 1 / setup.lattice->spacing);
+        motion.radius = motion.shape.radius;
+        motion.friction = body.friction;
+        motions.push_back(motion);
+    }
+    return motions;
+}
+
+bool graspReaches(const ToolMotion& tool, const glm::dvec3& x) {
+    return shapeDistance(tool.shape, tool.ownAtStart(x)) < 0;
+}
+
 void updateHeldNodes(const SolverSetup& setup, const std::vector<ToolMotion>& tools, LatticeState& state) {
     for (std::size_t tool = 0; tool < tools.size(); ++tool) {
         if (!tools[tool].closes && !tools[tool].opens)
@@ -85,7 +83,7 @@ void updateHeldNodes(const SolverSetup& setup, const std::vector<ToolMotion>& to
                 holder = 0;
             const bool fixed = !setup.fixed.empty() && setup.fixed[node];
             if (tools[tool].closes && holder == 0 && !fixed &&
-                glm::length(state.positions[node] - tools[tool].from) < tools[tool].radius)
+                graspReaches(tools[tool], state.positions[node]))
                 holder = std::uint32_t(tool + 1);
         }
     }

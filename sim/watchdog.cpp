@@ -50,6 +50,36 @@ double stiffness(const Lattice& lattice, const TissueField& field, std::uint32_t
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
+/// J: impulse times velocity, and angular impulse times angular velocity. Both are constant between keys;
+/// where they change in this time, the largest possible work.
+double workOf(const Tool& tool, double from, double to, const ToolLoad& load) {
+    double fastest = 0, fastestTurn = 0, last = from;
+    glm::dvec3 velocity(0), turning(0);
+    int pieces = 0;
+    const auto piece = [&](double end) {
+        if (end - last <= 1e-9 * (to - from))
+            return;
+        const RigidPose a = tool.poseAt(last), b = tool.poseAt(end);
+        velocity = (b.at - a.at) / (end - last);
+        glm::dquat turn = b.turn * glm::conjugate(a.turn);
+        turn = turn.w < 0 ? -turn : turn;
+        const glm::dvec3 axis(turn.x, turn.y, turn.z); // sin(angle/2) long
+        const double sine = glm::length(axis);
+        turning = sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / sine / (end - last)) : glm::dvec3(0);
+        fastest = std::max(fastest, glm::length(velocity));
+        fastestTurn = std::max(fastestTurn, glm::length(turning));
+        last = end;
+        ++pieces;
+    };
+    for (const ToolKey& key : tool.keys)
+        if (key.time > from && key.time < to)
+            piece(key.time);
+    piece(to);
+    if (pieces > 1)
+        return glm::length(load.impulse) * fastest + glm::length(load.angular) * fastestTurn;
+    return glm::dot(load.impulse, velocity) + glm::dot(load.angular, turning);
+}
+
 } // namespace
 
 const char* alarmName(AlarmKind kind) {
@@ -106,7 +136,7 @@ Watchdog::Watchdog(const SolverSetup& setup, const StableStep& step) : setup_(se
 void Watchdog::start(const LatticeState& state) {
     const Energies now = energies(setup_, state);
     budget_ = now.kinetic + now.elastic + now.gravitational + floor_;
-    const std::vector<ToolMotion> tools = toolMotions(setup_, state.step);
+    const std::vector<ToolMotion> tools = colliderMotions(setup_, state.step);
     embedded_.assign(tools.size(), false);
     for (std::size_t i = 0; i < tools.size(); ++i)
         for (std::size_t node = 0; node < state.positions.size() && !embedded_[i]; ++node) {
@@ -116,30 +146,15 @@ void Watchdog::start(const LatticeState& state) {
     energyShare_ = 0;
 }
 
-void Watchdog::addWork(double from, double to, const std::vector<glm::dvec3>& impulses) {
-    for (std::size_t i = 0; i < impulses.size() && i < setup_.tools.size(); ++i) {
-        const Tool& tool = setup_.tools[i];
-        // The velocity is constant between keys. Where it changes in this time, the largest possible work.
-        double fastest = 0, last = from;
-        glm::dvec3 velocity(0);
-        int pieces = 0;
-        const auto piece = [&](double end) {
-            if (end - last <= 1e-9 * (to - from))
-                return;
-            velocity = (tool.centreAt(end) - tool.centreAt(last)) / (end - last);
-            fastest = std::max(fastest, glm::length(velocity));
-            last = end;
-            ++pieces;
-        };
-        for (const ToolKey& key : tool.keys)
-            if (key.time > from && key.time < to)
-                piece(key.time);
-        piece(to);
-        double work = pieces > 1 ? glm::length(impulses[i]) * fastest : glm::dot(impulses[i], velocity);
+void Watchdog::addWork(double from, double to, const std::vector<ToolLoad>& loads) {
+    const double ejection = SRS_EJECTION * setup_.lattice->spacing / setup_.timeStep; // m/s
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+        const ToolLoad& load = loads[i];
+        double work = i < setup_.tools.size() ? workOf(setup_.tools[i], from, to, load) : 0;
         if (i < embedded_.size() && embedded_[i]) // what it pushes out moves by itself
-            work += glm::length(impulses[i]) * SRS_EJECTION * setup_.lattice->spacing / setup_.timeStep;
-        // What a tool takes back is not deducted: tissue that slides around a sphere is lifted a little more
-        // than the contact's plane says, and where a deeply embedded sphere has large forces all round, their
+            work += glm::length(load.impulse) * ejection;
+        // What a tool takes back is not deducted: tissue that slides around a tool is lifted a little more
+        // than the contact's plane says, and where a deeply embedded tool has large forces all round, their
         // small sum says little. check() follows the energy down.
         if (std::isfinite(work))
             budget_ += std::max(0.0, work);

@@ -3,12 +3,12 @@
 //   - a coordinate is not finite;
 //   - it holds more kinetic and elastic energy than can have come in, and a node moves by more than half a
 //     spacing a step against a neighbour, which no wave that the step resolves does. Everything but tools is
-//     conservative or takes energy away, and a tool cannot put in more than impulse times its velocity: a
-//     node that a tool moves goes from the velocity v to the tool's V (a push: along the contact's normal) by
-//     the impulse J = m (V - v), which gives it m (V^2 - v^2)/2 = J V - m |V - v|^2/2. So the energy that may
-//     be there, with gravity's potential, is that of the start plus the sum of the positive J V; and never
-//     more than kEnergyTolerance times what was there when last looked at, plus the work since, so that
-//     damping tightens the bound;
+//     conservative or takes energy away, and a tool cannot put in more than impulse times its velocity (of a
+//     tool that turns, with the angular impulse times its angular velocity): a node that a tool moves goes
+//     from the velocity v to the tool's V (a push: along the contact's normal) by the impulse J = m (V - v),
+//     which gives it m (V^2 - v^2)/2 = J V - m |V - v|^2/2. So the energy that may be there, with gravity's
+//     potential, is that of the start plus the sum of the positive J V; and never more than kEnergyTolerance
+//     times what was there when last looked at, plus the work since, so that damping tightens the bound;
 //   - its springs need a smaller step than it takes. A spring of length d resists along itself with k, across
 //     with k (1 - L/d) where it is stretched. With S_i the sum of these 3x3 matrices over the springs of node
 //     i, omega^2 <= max_i 2 |S_i| / m_i whatever the state is, exactly 12 k/m inside the rest lattice. Where
@@ -53,9 +53,8 @@ public:
 
     /// The state that a run begins with or goes on from; its tools are where they are at its step.
     void start(const LatticeState& state);
-    /// What the tools gave between two times in s. \param impulses N s, one a tool, as
-    /// Solver::takeToolImpulses.
-    void addWork(double from, double to, const std::vector<glm::dvec3>& impulses);
+    /// What the colliders gave between two times in s. \param loads one a collider, as Solver::takeLoads
+    void addWork(double from, double to, const std::vector<ToolLoad>& loads);
     /// What is wrong with the state, if anything. A state without alarm becomes what the next is compared
     /// with.
     std::optional<Alarm> check(const LatticeState& state);
@@ -74,7 +73,7 @@ private:
     SolverSetup setup_;
     StableStep step_;
     std::shared_ptr<const TissueField> field_; // not null; copies share it
-    std::vector<bool> embedded_; // of the tools: began inside the organ, and pushes it out (SRS_EJECTION)
+    std::vector<bool> embedded_; // of the colliders: began inside the organ, and pushes it out (SRS_EJECTION)
     double budget_ = 0;          // J, gravity's potential included
     double floor_ = 0;           // J: below, rounding
     double energyShare_ = 0;     // at the last check

@@ -64,10 +64,10 @@ Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int st
     const double frame = kStepsAFrame * scenario.setup.timeStep;
     for (int i = 1; i * kStepsAFrame <= steps; ++i) {
         solver.advance(kStepsAFrame);
-        const std::vector<glm::dvec3> impulses = solver.takeToolImpulses();
-        watchdog.addWork((i - 1) * frame, i * frame, impulses);
-        for (const glm::dvec3& impulse : impulses)
-            outcome.touched = outcome.touched || impulse != glm::dvec3(0);
+        const std::vector<sim::ToolLoad> loads = solver.takeLoads();
+        watchdog.addWork((i - 1) * frame, i * frame, loads);
+        for (const sim::ToolLoad& load : loads)
+            outcome.touched = outcome.touched || load.impulse != glm::dvec3(0);
         SEROSA_TRY(cutFrame(scenario, solver, (i - 1) * frame, i * frame));
         if (i % kFramesBetweenChecks != 0 && (i + 1) * kStepsAFrame <= steps)
             continue;

@@ -64,8 +64,7 @@ TEST(Watchdog, WorkOfToolsIsTheEnergyThatComesIn) {
         double most = 0;
         for (int step = 0; (step + every) * setup.timeStep < 0.4; step += every) {
             solver->advance(every);
-            watchdog.addWork(step * setup.timeStep, (step + every) * setup.timeStep,
-                             solver->takeToolImpulses());
+            watchdog.addWork(step * setup.timeStep, (step + every) * setup.timeStep, solver->takeLoads());
             const auto alarm = watchdog.check(solver->state());
             ASSERT_FALSE(alarm) << alarm->text();
             most = std::max(most, watchdog.energyShare());

@@ -1,0 +1,345 @@
+// See sim/contact_stage.h.
+#include "sim/contact_stage.h"
+
+#include "base/check.h"
+#include "shaders/shared_constants.h"
+#include "sim/contact_triangle.h"
+#include "sim/shape_distance.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace serosa::sim {
+
+namespace {
+
+constexpr double kMargin = 0.5;  // spacings that blocks may move before their spheres are made anew
+constexpr double kDeepest = 1;   // contactDepth
+constexpr double kNearBy = 0.25; // spacings: a triangle so near may touch once others have moved it
+
+} // namespace
+
+ContactStage::ContactStage(const SolverSetup& setup, std::vector<double> mass)
+    : setup_(setup), mass_(std::move(mass)) {
+    const Lattice& lattice = *setup.lattice;
+    const std::size_t count = lattice.nodeCount();
+    SEROSA_CHECK(mass_.size() == count, "one mass a node");
+    SEROSA_CHECK(setup.tools.size() + setup.bodies.size() <= SRS_MAX_COLLIDERS,
+                 "at most SRS_MAX_COLLIDERS tools and bodies");
+    loads_.resize(setup.tools.size() + setup.bodies.size());
+    if (empty())
+        return;
+    for (std::size_t node = 0; node < count; ++node) {
+        const bool fixed = !setup.fixed.empty() && setup.fixed[node];
+        inverseMass_.push_back(fixed ? 0 : 1 / mass_[node]);
+        depth_.push_back(lattice.restDepth(node));
+    }
+    start_.resize(count);
+    end_.resize(count);
+    free_.resize(count);
+    seen_.assign(count, 0);
+    asked_.assign(count, 0);
+    askedBy_.resize(count);
+    askedMove_.resize(count);
+    connect(lattice.connections);
+}
+
+void ContactStage::connect(const std::vector<std::uint32_t>& connections) {
+    if (empty())
+        return;
+    surface_ = contactSurface(*setup_.lattice, connections);
+    reset();
+}
+
+std::vector<ToolLoad> ContactStage::takeLoads() {
+    // From mass shares and lattice units a step to N s and N m s.
+    const double h = setup_.lattice->spacing, unit = setup_.tissue.nodeMass(h) * h / setup_.timeStep;
+    std::vector<ToolLoad> taken;
+    for (Load& load : loads_) {
+        taken.push_back({load.impulse * unit, load.angular * (unit * h)});
+        load = {};
+    }
+    return taken;
+}
+
+void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
+                       std::vector<std::uint32_t>& heldBy) {
+    if (empty())
+        return;
+    ++run_;
+    loaded_.clear();
+    colliders_ = colliderMotions(setup_, step);
+    thin_.clear();
+    for (const ToolMotion& collider : colliders_)
+        thin_.push_back(thinnestHalfWidth(collider.shape));
+    drift_ = drift_ < 0 ? drift_ : drift_ + fastest;
+    if (!(drift_ >= 0 && drift_ <= kMargin))
+        makeSpheres(nodes);
+
+    updateHeld(nodes, heldBy);
+    for (const std::uint32_t node : held_)
+        loadNode(nodes, node);
+    moveHeld(heldBy);
+
+    const std::vector<Near> nearTriangles = nearBlocks(triangleSpheres_, true),
+                            nearNodes = nearBlocks(nodeSpheres_, false);
+    load(nodes, surface_.triangleBlocks, nearTriangles);
+    load(nodes, surface_.nodes, nearNodes);
+    std::vector<Candidate> triangles = candidates(nearTriangles);
+    for (int round = 0; round < SRS_CONTACT_ITERATIONS && !triangles.empty(); ++round)
+        if (!pushTriangles(triangles))
+            break;
+    pushNodes(nearNodes);
+
+    double furthest2 = 0;
+    for (const std::uint32_t node : loaded_) {
+        const glm::dvec3 by = end_[node] - free_[node];
+        if (by == glm::dvec3(0))
+            continue;
+        furthest2 = std::max(furthest2, glm::dot(by, by));
+        nodes.move(node, by);
+    }
+    drift_ += std::sqrt(furthest2);
+}
+
+// Grasps.
+
+void ContactStage::updateHeld(const ContactNodes& nodes, std::vector<std::uint32_t>& heldBy) {
+    for (std::size_t tool = 0; tool < setup_.tools.size(); ++tool) {
+        const ToolMotion& motion = colliders_[tool];
+        for (std::uint32_t node = 0; motion.opens && node < heldBy.size(); ++node)
+            if (heldBy[node] == tool + 1)
+                heldBy[node] = 0;
+        for (std::uint32_t node = 0; motion.closes && node < heldBy.size(); ++node)
+            if (heldBy[node] == 0 && inverseMass_[node] > 0 && graspReaches(motion, nodes.start(node)))
+                heldBy[node] = std::uint32_t(tool + 1);
+    }
+    if (heldBy == heldSeen_)
+        return;
+    heldSeen_ = heldBy;
+    held_.clear();
+    for (std::uint32_t node = 0; node < heldBy.size(); ++node)
+        if (heldBy[node] != 0)
+            held_.push_back(node);
+}
+
+void ContactStage::moveHeld(std::vector<std::uint32_t>& heldBy) {
+    std::array<double, SRS_MAX_COLLIDERS> heldMass{};
+    for (const std::uint32_t node : held_)
+        if (heldBy[node] <= setup_.tools.size())
+            heldMass[heldBy[node] - 1] += mass_[node];
+    for (const std::uint32_t node : held_) {
+        const std::size_t tool = heldBy[node] - 1;
+        if (tool >= setup_.tools.size() || colliders_[tool].mode != SRS_TOOL_GRASP)
+            continue;
+        const ToolMotion& motion = colliders_[tool];
+        glm::dvec3 by = motion.carried(start_[node]) - end_[node];
+        // An impulse of grip m_i / (held mass): the same displacement for all.
+        const double far = glm::length(by), most = motion.grip / heldMass[tool];
+        if (far > most)
+            by *= most / far;
+        loads_[tool].add(motion, mass_[node], start_[node], by);
+        end_[node] += by;
+        if (motion.grip < std::numeric_limits<double>::infinity() &&
+            shapeDistance(motion.shape, motion.ownAtEnd(end_[node])) > SRS_GRIP_SLACK)
+            heldBy[node] = 0;
+    }
+}
+
+// What is near.
+
+void ContactStage::makeSpheres(const ContactNodes& nodes) {
+    const auto spheresOf = [&](const ContactBlocks& blocks) {
+        std::vector<Sphere> spheres(blocks.blocks.size());
+        tbb::parallel_for(std::size_t(0), spheres.size(), [&](std::size_t i) {
+            const ContactBlock& block = blocks.blocks[i];
+            glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+            for (std::uint32_t k = block.firstNode; k < block.firstNode + block.nodes; ++k)
+                for (const glm::dvec3& p : {nodes.start(blocks.nodes[k]), nodes.end(blocks.nodes[k])}) {
+                    low = glm::min(low, p);
+                    high = glm::max(high, p);
+                }
+            spheres[i] = {0.5 * (low + high), 0.5 * glm::length(high - low) + kMargin};
+        });
+        return spheres;
+    };
+    nodeSpheres_ = spheresOf(surface_.nodes);
+    triangleSpheres_ = spheresOf(surface_.triangleBlocks);
+    whole_ = {};
+    for (const Sphere& sphere : nodeSpheres_)
+        whole_.centre += sphere.centre / double(nodeSpheres_.size());
+    for (const Sphere& sphere : nodeSpheres_)
+        whole_.radius = std::max(whole_.radius, glm::distance(sphere.centre, whole_.centre) + sphere.radius);
+    drift_ = 0;
+}
+
+std::vector<ContactStage::Near> ContactStage::nearBlocks(const std::vector<Sphere>& spheres,
+                                                         bool triangles) const {
+    // In the collider's frame a block's points start and end within its sphere as seen from there, and go
+    // straight in between. What is no number counts as near.
+    const auto far = [](const ToolMotion& collider, const Sphere& sphere) {
+        const glm::dvec3 y0 = collider.ownAtStart(sphere.centre), y1 = collider.ownAtEnd(sphere.centre);
+        return shapeDistance(collider.shape, y1) > glm::distance(y0, y1) + sphere.radius + kDeepest;
+    };
+    std::vector<Near> near;
+    std::vector<std::uint32_t> pushing;
+    for (std::uint32_t i = 0; i < colliders_.size(); ++i)
+        if (colliders_[i].mode == SRS_TOOL_PUSH && !far(colliders_[i], whole_) &&
+            !(triangles && colliders_[i].shape.kind == ShapeKind::halfSpace))
+            pushing.push_back(i);
+    for (std::uint32_t block = 0; block < spheres.size() && !pushing.empty(); ++block) {
+        Mask mask = 0;
+        for (const std::uint32_t i : pushing)
+            if (!far(colliders_[i], spheres[block]))
+                mask |= 1u << i;
+        if (mask != 0)
+            near.push_back({block, mask});
+    }
+    return near;
+}
+
+void ContactStage::loadNode(const ContactNodes& nodes, std::uint32_t node) {
+    if (seen_[node] == run_)
+        return;
+    seen_[node] = run_;
+    start_[node] = nodes.start(node);
+    free_[node] = end_[node] = nodes.end(node);
+    loaded_.push_back(node);
+}
+
+void ContactStage::load(const ContactNodes& nodes, const ContactBlocks& blocks,
+                        const std::vector<Near>& near) {
+    for (const Near& one : near) {
+        const ContactBlock& block = blocks.blocks[one.block];
+        for (std::uint32_t k = block.firstNode; k < block.firstNode + block.nodes; ++k)
+            loadNode(nodes, blocks.nodes[k]);
+    }
+}
+
+// Triangles.
+
+std::vector<ContactStage::Candidate> ContactStage::candidates(const std::vector<Near>& near) const {
+    std::vector<std::vector<Candidate>> found(near.size());
+    tbb::parallel_for(std::size_t(0), near.size(), [&](std::size_t i) {
+        const ContactBlock& block = surface_.triangleBlocks.blocks[near[i].block];
+        for (Mask mask = near[i].colliders; mask != 0; mask &= mask - 1) {
+            const auto collider = std::uint32_t(std::countr_zero(mask));
+            const ToolMotion& motion = colliders_[collider];
+            for (std::uint32_t triangle = block.first; triangle < block.first + block.count; ++triangle) {
+                const glm::uvec3& t = surface_.triangles[triangle];
+                double path = 0;
+                for (int k = 0; k < 3; ++k)
+                    path = std::max(
+                        path, glm::distance(motion.ownAtStart(start_[t[k]]), motion.ownAtEnd(end_[t[k]])));
+                const double edge = std::max(glm::distance(end_[t.x], end_[t.y]),
+                                             glm::distance(end_[t.x], end_[t.z])),
+                             depth =
+                                 std::max({depth_[t.x], depth_[t.y], depth_[t.z], -0.5 * thin_[collider]});
+                if (shapeDistance(motion.shape, motion.ownAtEnd(end_[t.x])) <= edge + path + depth + kNearBy)
+                    found[i].push_back({triangle, collider});
+            }
+        }
+    });
+    std::vector<Candidate> all;
+    for (const std::vector<Candidate>& part : found)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+bool ContactStage::ask(const Candidate& candidate, Asked& asked) const {
+    const ToolMotion& motion = colliders_[candidate.collider];
+    const double thin = thin_[candidate.collider];
+    const glm::uvec3& t = surface_.triangles[candidate.triangle];
+    Corners y0, y1;
+    glm::dvec3 depth;
+    for (int k = 0; k < 3; ++k) {
+        y0[std::size_t(k)] = motion.ownAtStart(start_[t[k]]);
+        y1[std::size_t(k)] = motion.ownAtEnd(end_[t[k]]);
+        depth[k] = contactDepthFor(depth_[t[k]], thin);
+    }
+    const TriangleContact contact = triangleContact({motion.shape, thin, motion.friction}, y0, y1, depth);
+    if (contact.move == glm::dvec3(0))
+        return false;
+    double share = 0;
+    for (int k = 0; k < 3; ++k)
+        share += contact.weights[k] * contact.weights[k] * inverseMass_[t[k]];
+    if (!(share > 0)) // fixed
+        return false;
+    asked = {candidate.triangle, candidate.collider, {}};
+    for (int k = 0; k < 3; ++k)
+        asked.moves[k] = motion.turnTo * contact.move * (contact.weights[k] * inverseMass_[t[k]] / share);
+    return true;
+}
+
+bool ContactStage::pushTriangles(std::vector<Candidate>& candidates) {
+    constexpr std::size_t kGrain = 64;
+    std::vector<std::vector<Asked>> parts((candidates.size() + kGrain - 1) / kGrain);
+    tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
+        const std::size_t end = std::min(candidates.size(), (part + 1) * kGrain);
+        Asked asked;
+        for (std::size_t i = part * kGrain; i < end; ++i)
+            if (ask(candidates[i], asked))
+                parts[part].push_back(asked);
+    });
+    ++round_;
+    std::vector<std::uint32_t> moved;
+    for (const std::vector<Asked>& part : parts)
+        for (const Asked& asked : part)
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t node = surface_.triangles[asked.triangle][k];
+                const glm::dvec3& by = asked.moves[k];
+                if (asked_[node] != round_) {
+                    asked_[node] = round_;
+                    askedMove_[node] = glm::dvec3(0);
+                    moved.push_back(node);
+                }
+                if (glm::dot(by, by) > glm::dot(askedMove_[node], askedMove_[node])) {
+                    askedMove_[node] = by;
+                    askedBy_[node] = asked.collider;
+                }
+            }
+    for (const std::uint32_t node : moved) {
+        const glm::dvec3& by = askedMove_[node];
+        if (by == glm::dvec3(0))
+            continue;
+        end_[node] += by;
+        loads_[askedBy_[node]].add(colliders_[askedBy_[node]], mass_[node], start_[node], by);
+    }
+    return !moved.empty();
+}
+
+// Nodes.
+
+void ContactStage::pushNodes(const std::vector<Near>& near) {
+    std::vector<std::array<Load, SRS_MAX_COLLIDERS>> loads(near.size());
+    tbb::parallel_for(std::size_t(0), near.size(), [&](std::size_t i) {
+        const ContactBlock& block = surface_.nodes.blocks[near[i].block];
+        for (std::uint32_t k = block.firstNode; k < block.firstNode + block.nodes; ++k) {
+            const std::uint32_t node = surface_.nodes.nodes[k];
+            for (Mask mask = near[i].colliders; mask != 0 && inverseMass_[node] > 0; mask &= mask - 1) {
+                const auto collider = std::size_t(std::countr_zero(mask));
+                const ToolMotion& motion = colliders_[collider];
+                const glm::dvec3 y0 = motion.ownAtStart(start_[node]), y1 = motion.ownAtEnd(end_[node]);
+                const double path = glm::distance(y0, y1),
+                             depth = contactDepthFor(depth_[node], thin_[collider]);
+                if (!(shapeDistance(motion.shape, y1) - depth < path))
+                    continue; // no part of the way is nearer
+                const glm::dvec3 move = pointContact({motion.shape, thin_[collider], motion.friction}, y0, y1,
+                                                     depth, sweepSamples(path, thin_[collider]));
+                if (move == glm::dvec3(0))
+                    continue;
+                const glm::dvec3 by = motion.turnTo * move;
+                loads[i][collider].add(motion, mass_[node], start_[node], by);
+                end_[node] += by;
+            }
+        }
+    });
+    for (const auto& part : loads)
+        for (std::size_t collider = 0; collider < loads_.size(); ++collider)
+            loads_[collider].add(part[collider]);
+}
+
+} // namespace serosa::sim

@@ -1,0 +1,92 @@
+// See sim/contact_triangle.h. The deepest point is found by projected gradients on the triangle itself: with
+// c the distance to the core of a rounded shape, no curvature of phi is above 1/c, so that a step of length c
+// never overshoots; for equal depths it goes to the core's nearest point and back to the triangle's, which
+// for a sphere is the end of it.
+#include "sim/contact_triangle.h"
+
+#include "shaders/shared_constants.h"
+#include "sim/shape_distance.h"
+#include "sim/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace serosa::sim {
+
+namespace {
+
+glm::dvec3 weigh(const Corners& p, const glm::dvec3& weights) {
+    return weights.x * p[0] + weights.y * p[1] + weights.z * p[2];
+}
+
+/// The vector in the triangle's plane along which the interpolated depth grows.
+glm::dvec3 depthGradient(const Corners& p, const glm::dvec3& depth) {
+    const glm::dvec3 e = p[1] - p[0], f = p[2] - p[0];
+    const double ee = glm::dot(e, e), ef = glm::dot(e, f), ff = glm::dot(f, f), det = ee * ff - ef * ef;
+    if (!(det > 1e-12 * ee * ff))
+        return glm::dvec3(0);
+    const double a = depth.y - depth.x, b = depth.z - depth.x;
+    return ((a * ff - b * ef) * e + (b * ee - a * ef) * f) / det;
+}
+
+double longestEdge(const Corners& p) {
+    return std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
+}
+
+} // namespace
+
+TriangleGap deepestPoint(const RigidShape& shape, const Corners& p, const glm::dvec3& depth) {
+    static const glm::dvec3 kStarts[] = {{1, 0, 0},     {0, 1, 0},     {0, 0, 1},          {0.5, 0.5, 0},
+                                         {0, 0.5, 0.5}, {0.5, 0, 0.5}, glm::dvec3(1.0 / 3)};
+    TriangleGap best;
+    ShapeSample sample;
+    bool first = true;
+    for (const glm::dvec3& weights : kStarts) {
+        const ShapeSample here = sampleShape(shape, weigh(p, weights));
+        const double gap = here.distance - glm::dot(weights, depth);
+        if (first || gap < best.gap) {
+            best = {weights, gap};
+            sample = here;
+        }
+        first = false;
+    }
+    const glm::dvec3 uphill = depthGradient(p, depth);
+    const double least = 0.25 * longestEdge(p);
+    glm::dvec3 at = weigh(p, best.weights);
+    for (int i = 0; i < SRS_TRIANGLE_ITERATIONS; ++i) {
+        const double step = std::max(std::abs(sample.distance + shape.radius), least);
+        const TrianglePoint next =
+            closestPointOnTriangle(at - step * (sample.normal - uphill), p[0], p[1], p[2]);
+        const glm::dvec3 moved = next.point - at;
+        if (glm::dot(moved, moved) < 1e-20)
+            break;
+        at = next.point;
+        sample = sampleShape(shape, at);
+        const double gap = sample.distance - glm::dot(next.weights, depth);
+        if (gap < best.gap)
+            best = {next.weights, gap};
+    }
+    return best;
+}
+
+TriangleContact triangleContact(const ContactShape& collider, const Corners& y0, const Corners& y1,
+                                const glm::dvec3& depth) {
+    double path = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        path = std::max(path, glm::distance(y0[i], y1[i]));
+    const int samples = sweepSamples(path, collider.thin);
+    TriangleGap deepest = deepestPoint(collider.shape, y1, depth);
+    for (int k = 0; k < samples && samples > 1 && deepest.gap >= 0;) {
+        const double s = double(k) / samples;
+        deepest = deepestPoint(
+            collider.shape,
+            {y0[0] + s * (y1[0] - y0[0]), y0[1] + s * (y1[1] - y0[1]), y0[2] + s * (y1[2] - y0[2])}, depth);
+        k += std::max(1, int(std::min(deepest.gap * samples / path, double(samples)))); // apart until then
+    }
+    if (!(deepest.gap < 0))
+        return {};
+    return {deepest.weights, pointContact(collider, weigh(y0, deepest.weights), weigh(y1, deepest.weights),
+                                          glm::dot(deepest.weights, depth), samples)};
+}
+
+} // namespace serosa::sim
