@@ -99,16 +99,17 @@ glm::dvec3 pointContact(const ContactShape& collider, const glm::dvec3& y0, cons
     if (!touch.any)
         return glm::dvec3(0);
     const glm::dvec3& n = touch.normal;
+    const double ejected = touch.gap < 0 ? touch.target - touch.gap : 0;
     const auto outBy = [&](const glm::dvec3& from) {
-        return touch.through ? std::max(glm::dot(n, touch.at - from) + touch.target - touch.gap, 0.0)
+        return touch.through ? std::max(glm::dot(n, touch.at - from) + ejected, 0.0)
                              : distanceOut(collider.shape, from, n, touch.target + depth);
     };
     const double out = outBy(y1);
     if (!(collider.friction > 0))
         return n * out;
     const glm::dvec3 motion = y1 - y0, along = motion - n * glm::dot(n, motion);
-    const double slide = glm::length(along), ejected = touch.gap < 0 ? touch.target - touch.gap : 0;
-    const double held = std::min(slide, collider.friction * std::max(0.0, out - ejected));
+    const double slide = glm::length(along),
+                 held = std::min(slide, collider.friction * std::max(0.0, out - ejected));
     if (!(held > 0))
         return n * out;
     const glm::dvec3 back = along * (held / slide);

@@ -16,9 +16,37 @@ namespace serosa::sim {
 
 namespace {
 
-constexpr double kMargin = 0.5;  // spacings that blocks may move before their spheres are made anew
-constexpr double kDeepest = 1;   // contactDepth
-constexpr double kNearBy = 0.25; // spacings: a triangle so near may touch once others have moved it
+constexpr double kMargin = 0.5;     // spacings that blocks may move before their spheres are made anew
+constexpr double kDeepest = 1;      // contactDepth
+constexpr double kMostShare = 1.25; // of a triangle's move, for a corner; equal ones need 1.21
+constexpr double kNearBy = 0.25;    // spacings: a triangle so near may touch once others have moved it
+
+/// How far each corner moves where the point with these weights b moves by 1: b_i/m_i over sum b_j^2/m_j, the
+/// least energy. No corner moves by more than kMostShare, though, what it does not take the others do: light
+/// corners, of cells with little fill, would be thrown.
+glm::dvec3 cornerShares(const glm::dvec3& weights, const glm::dvec3& inverseMass) {
+    glm::dvec3 shares(0);
+    bool full[3] = {};
+    for (int round = 0; round < 3; ++round) {
+        double left = 1, sum = 0;
+        for (int k = 0; k < 3; ++k)
+            (full[k] ? left : sum) +=
+                full[k] ? -weights[k] * kMostShare : weights[k] * weights[k] * inverseMass[k];
+        bool again = false;
+        for (int k = 0; k < 3; ++k) {
+            if (full[k])
+                continue;
+            shares[k] = sum > 0 ? std::max(left, 0.0) * weights[k] * inverseMass[k] / sum : 0;
+            if (shares[k] > kMostShare) {
+                shares[k] = kMostShare;
+                full[k] = again = true;
+            }
+        }
+        if (!again)
+            break;
+    }
+    return shares;
+}
 
 } // namespace
 
@@ -263,14 +291,13 @@ bool ContactStage::ask(const Candidate& candidate, Asked& asked) const {
     const TriangleContact contact = triangleContact({motion.shape, thin, motion.friction}, y0, y1, depth);
     if (contact.move == glm::dvec3(0))
         return false;
-    double share = 0;
-    for (int k = 0; k < 3; ++k)
-        share += contact.weights[k] * contact.weights[k] * inverseMass_[t[k]];
-    if (!(share > 0)) // fixed
+    const glm::dvec3 shares =
+        cornerShares(contact.weights, {inverseMass_[t.x], inverseMass_[t.y], inverseMass_[t.z]});
+    if (shares == glm::dvec3(0)) // fixed
         return false;
     asked = {candidate.triangle, candidate.collider, {}};
     for (int k = 0; k < 3; ++k)
-        asked.moves[k] = motion.turnTo * contact.move * (contact.weights[k] * inverseMass_[t[k]] / share);
+        asked.moves[k] = motion.turnTo * contact.move * shares[k];
     return true;
 }
 
