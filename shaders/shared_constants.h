@@ -44,7 +44,7 @@
 #define SRS_SWEEP_SAMPLES 64      // most, of a step's motion against a collider
 #define SRS_SWEEP_BISECTIONS 12   // of the moment of touch between two samples
 #define SRS_CONTACT_ITERATIONS 2  // rounds over the boundary triangles a step
-#define SRS_TRIANGLE_ITERATIONS 8 // for the deepest point of a triangle
+#define SRS_TRIANGLE_ITERATIONS 12 // for the deepest point of a triangle
 #define SRS_GRIP_SLACK 0.1 // spacings outside of its tool beyond which a held node that slips is let go
 
 // Strokes (sim/blade.h). The last three are powers of two, exact as float and as double.

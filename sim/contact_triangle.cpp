@@ -53,18 +53,24 @@ TriangleGap deepestPoint(const RigidShape& shape, const Corners& p, const glm::d
     const glm::dvec3 uphill = depthGradient(p, depth);
     const double least = 0.25 * longestEdge(p);
     glm::dvec3 at = weigh(p, best.weights);
+    double stretch = 1;
     for (int i = 0; i < SRS_TRIANGLE_ITERATIONS; ++i) {
-        const double step = std::max(std::abs(sample.distance + shape.radius), least);
+        const double step = stretch * std::max(std::abs(sample.distance + shape.radius), least);
         const TrianglePoint next =
             closestPointOnTriangle(at - step * (sample.normal - uphill), p[0], p[1], p[2]);
         const glm::dvec3 moved = next.point - at;
-        if (glm::dot(moved, moved) < 1e-20)
+        if (glm::dot(moved, moved) < 1e-16)
             break;
-        at = next.point;
-        sample = sampleShape(shape, at);
-        const double gap = sample.distance - glm::dot(next.weights, depth);
-        if (gap < best.gap)
+        const ShapeSample here = sampleShape(shape, next.point);
+        const double gap = here.distance - glm::dot(next.weights, depth);
+        if (gap < best.gap) {
             best = {next.weights, gap};
+            at = next.point;
+            sample = here;
+            stretch *= 2;
+        } else {
+            stretch *= 0.25;
+        }
     }
     return best;
 }
