@@ -121,7 +121,8 @@ Result<Program> Program::create(const ShaderLibrary& library, const std::vector<
         return Error{program.name_ + " does not link:\n" + programLog(program.id_)};
     labelObject(GL_PROGRAM, program.id_, program.name_);
     SEROSA_TRY(program.listInputs());
-    program.listStorageBlocks();
+    program.listBlocks(GL_SHADER_STORAGE_BLOCK);
+    program.listBlocks(GL_UNIFORM_BLOCK);
     if (stages.size() == 1 && stages.front().ends_with(".comp"))
         glGetProgramiv(program.id_, GL_COMPUTE_WORK_GROUP_SIZE, glm::value_ptr(program.groupSize_));
     return program;
@@ -137,6 +138,14 @@ void Program::dispatch(const glm::ivec3& items) const {
     }
     use();
     glDispatchCompute(groups.x, groups.y, groups.z);
+}
+
+void Program::dispatchIndirect(const Buffer& groups, std::size_t offset) const {
+    SEROSA_CHECK(groupSize_.x > 0, name_ + " is dispatched and has no compute stage");
+    SEROSA_CHECK(groups && offset % 4 == 0 && offset + 12 <= groups.bytes(), name_ + ": three group counts");
+    use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
 void drawFullScreen(const VertexArray& emptyVertexArray) {

@@ -99,6 +99,9 @@ public:
     Program& image(const std::string& name, const Texture2D& texture, GLenum access);
     /// Storage block `b_...`: remembers the buffer (which must outlive the draw or dispatch); bound by use().
     Program& buffer(const std::string& name, const Buffer& buffer);
+    /// Uniform block `b_...`: remembers `bytes` of the buffer from `offset` on, a multiple of
+    /// uniformOffsetStep(); bound by use().
+    Program& uniforms(const std::string& name, const Buffer& buffer, std::size_t offset, std::size_t bytes);
 
     /// glUseProgram and binds samplers, images and storage blocks. SEROSA_CHECKs, naming the input, that
     /// every active one was set.
@@ -106,6 +109,9 @@ public:
     /// Compute: uses the program and runs at least `items` invocations along x, y, z, in whole work groups
     /// (the shader ignores those beyond). What it wrote is visible to others after a glMemoryBarrier.
     void dispatch(const glm::ivec3& items) const;
+    /// The same with the numbers of work groups along x, y, z (uint32) that `groups` holds at `offset`, a
+    /// multiple of 4: what wrote them needs a GL_COMMAND_BARRIER_BIT before.
+    void dispatchIndirect(const Buffer& groups, std::size_t offset) const;
     /// Compute: invocations of a work group along x, y, z; 0 where the program has no compute stage.
     const glm::ivec3& groupSize() const { return groupSize_; }
     /// Names of active inputs that were never set; empty when use() would succeed.
@@ -119,21 +125,22 @@ public:
     std::vector<std::string> takeMismatches();
 
 private:
-    struct Input { // one active uniform, sampler, image or storage block
+    struct Input { // one active uniform, sampler, image, storage or uniform block
         GLint location = -1;
         GLenum type = 0;
         GLint count = 1; // elements of an array
         bool isSet = false;
-        int unit = -1;        // samplers, images; a storage block's binding
-        GLuint textureId = 0; // samplers and images
-        GLuint bufferId = 0;  // storage blocks
+        int unit = -1;                     // samplers, images; a block's binding
+        GLuint textureId = 0;              // samplers and images
+        GLuint bufferId = 0;               // blocks
+        std::size_t offset = 0, bytes = 0; // uniform blocks
         GLenum imageAccess = 0, imageFormat = 0;
     };
     /// The input to set, or null for one that the compiler removed; aborts on an unknown name or another
     /// type.
     Input* find(const std::string& name, std::initializer_list<GLenum> types, std::size_t count = 1);
     Status listInputs();
-    void listStorageBlocks();
+    void listBlocks(GLenum kind);
     /// Aborts unless mismatches are tolerated.
     void mismatch(const std::string& what) const;
 
@@ -144,6 +151,9 @@ private:
     bool tolerant_ = false;
     mutable std::set<std::string> mismatches_;
 };
+
+/// Uniform blocks begin at multiples of this many bytes of their buffers.
+std::size_t uniformOffsetStep();
 
 /// Draws one triangle that covers the viewport (pass.vert makes it from gl_VertexID): what every state pass
 /// uses.

@@ -71,20 +71,23 @@ Status Program::listInputs() {
     return {};
 }
 
-void Program::listStorageBlocks() {
+void Program::listBlocks(GLenum kind) {
+    const bool storage = kind == GL_SHADER_STORAGE_BLOCK;
     GLint count = 0, longest = 0;
-    glGetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    glGetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_MAX_NAME_LENGTH, &longest);
+    glGetProgramInterfaceiv(id_, kind, GL_ACTIVE_RESOURCES, &count);
+    glGetProgramInterfaceiv(id_, kind, GL_MAX_NAME_LENGTH, &longest);
     for (GLint index = 0; index < count; ++index) {
         std::string name(static_cast<std::size_t>(longest), '\0');
         GLsizei length = 0;
-        glGetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, static_cast<GLuint>(index), longest, &length,
-                                 name.data());
+        glGetProgramResourceName(id_, kind, static_cast<GLuint>(index), longest, &length, name.data());
         name.resize(static_cast<std::size_t>(length));
         Input input;
-        input.type = GL_SHADER_STORAGE_BUFFER;
+        input.type = storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER;
         input.unit = index;
-        glShaderStorageBlockBinding(id_, static_cast<GLuint>(index), static_cast<GLuint>(index));
+        if (storage)
+            glShaderStorageBlockBinding(id_, static_cast<GLuint>(index), static_cast<GLuint>(index));
+        else
+            glUniformBlockBinding(id_, static_cast<GLuint>(index), static_cast<GLuint>(index));
         inputs_.emplace(name, input);
     }
 }
@@ -227,6 +230,24 @@ Program& Program::buffer(const std::string& name, const Buffer& buffer) {
     return *this;
 }
 
+Program& Program::uniforms(const std::string& name, const Buffer& buffer, std::size_t offset,
+                           std::size_t bytes) {
+    if (Input* input = find(name, {GL_UNIFORM_BUFFER})) {
+        SEROSA_CHECK(buffer && offset <= buffer.bytes() && bytes <= buffer.bytes() - offset,
+                     name_ + ": input \"" + name + "\" lies beyond its buffer");
+        input->bufferId = buffer.id();
+        input->offset = offset;
+        input->bytes = bytes;
+    }
+    return *this;
+}
+
+std::size_t uniformOffsetStep() {
+    GLint step = 0;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &step);
+    return step > 0 ? static_cast<std::size_t>(step) : 256;
+}
+
 std::vector<std::string> Program::unsetInputs() const {
     std::vector<std::string> names;
     for (const auto& [name, input] : inputs_)
@@ -242,10 +263,14 @@ void Program::use() const {
             mismatch(": input \"" + name + "\" was never set");
         if (input.unit < 0 || (tolerant_ && input.textureId == 0 && input.bufferId == 0))
             continue;
-        if (input.type == GL_SHADER_STORAGE_BUFFER) {
+        if (input.type == GL_SHADER_STORAGE_BUFFER || input.type == GL_UNIFORM_BUFFER) {
             SEROSA_CHECK(glIsBuffer(input.bufferId),
                          name_ + ": the buffer of input \"" + name + "\" is gone");
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(input.unit), input.bufferId);
+            if (input.type == GL_SHADER_STORAGE_BUFFER)
+                glBindBufferBase(input.type, static_cast<GLuint>(input.unit), input.bufferId);
+            else
+                glBindBufferRange(input.type, static_cast<GLuint>(input.unit), input.bufferId,
+                                  static_cast<GLintptr>(input.offset), static_cast<GLsizeiptr>(input.bytes));
             continue;
         }
         SEROSA_CHECK(glIsTexture(input.textureId), name_ + ": the texture of input \"" + name + "\" is gone");
