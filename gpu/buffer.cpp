@@ -37,6 +37,10 @@ void Buffer::download(std::size_t offset, std::size_t bytes, void* data) const {
     glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
+void Buffer::clear() {
+    glClearNamedBufferData(id_, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+}
+
 VertexArray::VertexArray(const std::string& label) {
     checkContext(label);
     glCreateVertexArrays(1, &id_);

@@ -44,6 +44,8 @@ public:
     std::size_t bytes() const { return bytes_; }
     void upload(std::size_t offset, std::size_t bytes, const void* data);
     void download(std::size_t offset, std::size_t bytes, void* data) const;
+    /// Fills with zeros.
+    void clear();
 
 private:
     std::size_t bytes_ = 0;

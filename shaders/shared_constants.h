@@ -47,6 +47,16 @@
 #define SRS_TRIANGLE_ITERATIONS 12 // for the deepest point of a triangle
 #define SRS_GRIP_SLACK 0.1 // spacings outside of its tool beyond which a held node that slips is let go
 
+// Rigid shapes: ShapeKind (sim/rigid_shape.h)
+#define SRS_SHAPE_SPHERE 0
+#define SRS_SHAPE_CAPSULE 1
+#define SRS_SHAPE_BOX 2
+#define SRS_SHAPE_HOOK 3
+#define SRS_SHAPE_HALF_SPACE 4
+#define SRS_SHAPE_MESH 5
+
+#define SRS_LOAD_STRIPES 16 // copies of the sums of what colliders gave (shaders/contact_loads.glsl)
+
 // Strokes (sim/blade.h). The last three are powers of two, exact as float and as double.
 #define SRS_STROKE_BLADE 0
 #define SRS_STROKE_CAUTERIZE 1

@@ -1,5 +1,5 @@
 // One solver step as a compute pass: the node of solver_node.glsl, which the fragment pass has too. Stores what the
-// fragment pass draws; what tools gave is added to one slot a texel and tool, so that no two invocations meet.
+// fragment pass draws.
 //
 // Texels are addressed as SRS_GROUP_X x Y x Z invocations over the texture (rows layout, z = 1) or over the grid (x, y, z
 // of a node; its texel is (x, y + ny z)). With SRS_TILES (grid only) a group first copies its nodes and a border one
@@ -12,10 +12,6 @@ layout(local_size_x = SRS_GROUP_X, local_size_y = SRS_GROUP_Y, local_size_z = SR
 layout(rgba32f) uniform writeonly restrict image2D i_newPositions;
 layout(rgba32f) uniform writeonly restrict image2D i_newIncrements;
 uniform ivec3 u_items; // texels of the texture, or nodes of the grid, along x, y, z
-
-#if SRS_TOOLS > 0
-layout(std430) restrict buffer b_impulses { float b_impulse[]; }; // (texel * SRS_TOOLS + tool) * 3, see NodeStep
-#endif
 
 #ifndef SRS_TILES
 vec3 loadPosition(ivec2 texel) { return fetchPosition(texel); }
@@ -37,16 +33,4 @@ void main() {
     NodeStep result = stepNode(texel);
     imageStore(i_newPositions, texel, result.position);
     imageStore(i_newIncrements, texel, result.increment);
-#if SRS_TOOLS > 0
-    int slot = (texel.y * u_items.x + texel.x) * SRS_TOOLS;
-    for (int tool = 0; tool < SRS_TOOLS; ++tool) {
-        vec3 impulse = result.impulse[tool];
-        if (impulse != vec3(0.0)) { // few nodes touch a tool: the rest costs no memory access
-            int first = (slot + tool) * 3;
-            b_impulse[first] += impulse.x;
-            b_impulse[first + 1] += impulse.y;
-            b_impulse[first + 2] += impulse.z;
-        }
-    }
-#endif
 }

@@ -1,6 +1,10 @@
 // What all solvers share but cuts (sim/cut_list.cpp).
 #include "sim/solver.h"
 
+#include "base/check.h"
+
+#include <utility>
+
 namespace serosa::sim {
 
 std::vector<glm::dvec3> Solver::takeToolImpulses() {
@@ -9,6 +13,23 @@ std::vector<glm::dvec3> Solver::takeToolImpulses() {
     for (std::size_t tool = 0; tool < setup().tools.size(); ++tool)
         impulses.push_back(loads[tool].impulse);
     return impulses;
+}
+
+void Solver::endFrame() {
+    SEROSA_CHECK(frames_.size() < 3, "loads are taken once a frame");
+    frames_.push_back(takeLoads());
+}
+
+std::optional<std::vector<ToolLoad>> Solver::frameLoads() {
+    if (frames_.size() < 3)
+        return std::nullopt;
+    std::vector<ToolLoad> loads = std::move(frames_.front());
+    frames_.erase(frames_.begin());
+    return loads;
+}
+
+std::vector<std::vector<ToolLoad>> Solver::flushFrames() {
+    return std::exchange(frames_, {});
 }
 
 } // namespace serosa::sim

@@ -31,6 +31,7 @@
 #include "sim/tool.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,10 +79,22 @@ public:
     virtual LatticeState state() const = 0;
     /// Continues from a state (sizes must match).
     virtual void setState(const LatticeState& state) = 0;
-    /// What tools and bodies gave to the organ since the last call, one a collider. Waits for the GPU.
+    /// What tools and bodies gave to the organ since the last call or endFrame(), one a collider. Waits for
+    /// the GPU.
     virtual std::vector<ToolLoad> takeLoads() = 0;
     /// The tools' impulses of takeLoads(), which it takes: N s, one a tool.
     std::vector<glm::dvec3> takeToolImpulses();
+
+    // Loads frame by frame, with no wait for the GPU: after each endFrame() comes one frameLoads().
+
+    /// Ends a frame: what was given since the last takeLoads() or endFrame() is its load.
+    virtual void endFrame();
+    /// The loads of exactly the frame two before the one that ended last; nothing after the first two frames.
+    /// Waits, if they are not there yet.
+    virtual std::optional<std::vector<ToolLoad>> frameLoads();
+    /// Those of the frames that ended and were not given yet (two, at the end of a run), oldest first. Waits.
+    virtual std::vector<std::vector<ToolLoad>> flushFrames();
+
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
 
@@ -105,6 +118,7 @@ public:
     const Lattice& lattice() const { return *setup().lattice; }
 
 private:
+    std::vector<std::vector<ToolLoad>> frames_;         // ended and not given yet, oldest first
     std::vector<std::vector<std::uint32_t>> cutLayers_; // bits that each stroke cleared, one word a node
 };
 

@@ -3,7 +3,6 @@
 
 #include "shaders/shared_constants.h"
 
-#include <array>
 #include <bit>
 #include <span>
 
@@ -15,7 +14,6 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         {"SRS_LAYOUT", std::to_string(layout.kind)},
         {"SRS_GRID_NY", std::to_string(layout.gridStride.z)},
         {"SRS_ROW_LOG2", std::to_string(std::countr_zero(unsigned(layout.width)))},
-        {"SRS_TOOLS", std::to_string(setup.tools.size())},
         {"SRS_EQUATION", options.printedForm ? "2" : "1"}};
     const Tissue& tissue = setup.tissue;
     defines.push_back({"SRS_MATERIALS", std::to_string(tissue.materialCount())});
@@ -57,22 +55,6 @@ void setKernelUniforms(gpu::Program& program, const SolverSetup& setup) {
     program.set("u_springs", std::span<const float>(springs));
     program.set("u_densities", std::span<const float>(densities));
     program.set("u_dampingTimes", std::span<const float>(dampingTimes));
-}
-
-void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools) {
-    std::array<glm::vec4, SRS_MAX_TOOLS> spheres{}, moves{};
-    for (std::size_t i = 0; i < tools.size(); ++i) {
-        spheres[i] = glm::vec4(glm::vec3(tools[i].to), float(tools[i].radius));
-        moves[i] = glm::vec4(glm::vec3(tools[i].to - tools[i].from), float(tools[i].mode));
-    }
-    program.set("u_toolSpheres", std::span<const glm::vec4>(spheres));
-    program.set("u_toolMoves", std::span<const glm::vec4>(moves));
-}
-
-void setGraspUniforms(gpu::Program& program, unsigned holder, const ToolMotion& tool) {
-    program.set("u_sphere", glm::vec4(glm::vec3(tool.from), float(tool.radius)));
-    program.set("u_holder", holder);
-    program.set("u_closes", tool.closes ? 1 : 0);
 }
 
 double impulseUnit(const SolverSetup& setup) {

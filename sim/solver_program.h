@@ -1,27 +1,22 @@
 #pragma once
 // What the fragment and the compute solver tell their programs alike: the defines of
-// shaders/solver_kernel.glsl, and the uniforms of the kernel, the tools and the grasp pass.
+// shaders/solver_kernel.glsl, and the uniforms of the kernel.
 
 #include "gpu/program.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
-#include "sim/tool_motion.h"
 
 #include <vector>
 
 namespace serosa::sim {
 
-/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_TOOLS, SRS_EQUATION, SRS_MATERIALS,
+/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_EQUATION, SRS_MATERIALS,
 /// SRS_NORMALS, SRS_FULL_CELLS, SRS_TEXEL_FETCH, and what the tissue asks for: SRS_DAMPING,
 /// SRS_OWN_DAMPERS, SRS_CELL_MATERIALS, SRS_FIBRES, SRS_CELL_PASS with SRS_VOLUME and SRS_STIFFENING.
 std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
                                              const KernelOptions& options);
 /// What does not change between steps: stiffness, drag, gravity, damping, materials, in lattice units.
 void setKernelUniforms(gpu::Program& program, const SolverSetup& setup);
-/// Spheres and moves of one step.
-void setToolUniforms(gpu::Program& program, const std::vector<ToolMotion>& tools);
-/// The tool that takes hold or lets go. \param holder 1 + its index
-void setGraspUniforms(gpu::Program& program, unsigned holder, const ToolMotion& tool);
 /// N s of an impulse of 1 in mass shares times lattice units a step.
 double impulseUnit(const SolverSetup& setup);
 

@@ -125,6 +125,15 @@ LatticeState StateTextures::download(std::int64_t step) const {
     return state;
 }
 
+std::vector<std::uint32_t> StateTextures::downloadConnections() const {
+    std::vector<std::array<std::uint32_t, 4>> info(layout_.texels());
+    nodeInfo_[currentInfo_].download(info.data(), info.size() * sizeof info[0]);
+    std::vector<std::uint32_t> connections;
+    for (std::size_t node = 0; node < layout_.texelOfNode.size(); ++node)
+        connections.push_back(info[linearTexel(node)][0] & SRS_CONNECTION_MASK);
+    return connections;
+}
+
 std::size_t StateTextures::bytes() const {
     const std::size_t perTexel = 2 * (16 + 16 + 16) + (layout_.kind == SRS_LAYOUT_ROWS ? 32 : 0);
     return layout_.texels() * perTexel;

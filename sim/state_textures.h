@@ -28,11 +28,14 @@ public:
     void upload(const LatticeState& state);
     /// Reads all back (stalls).
     LatticeState download(std::int64_t step) const;
+    /// Connections alone, 18 bits a node (stalls).
+    std::vector<std::uint32_t> downloadConnections() const;
     /// Texture memory, double buffering included.
     std::size_t bytes() const;
 
 private:
     friend class CellPass;
+    friend class ContactPass;
     friend class CutPass;
     friend class TextureSolver;
     friend class FragmentSolver;

@@ -4,19 +4,35 @@
 #include "shaders/shared_constants.h"
 #include "sim/solver_program.h"
 
+#include <algorithm>
+
 namespace serosa::sim {
 
 void TextureSolver::setState(const LatticeState& state) {
     textures_.upload(state);
+    contact_.connect(textures_, state.connections.empty() ? lattice().connections : state.connections);
+    contact_.restart();
     step_ = state.step;
 }
 
-void TextureSolver::setConstants() {
+Status TextureSolver::cut(const Stroke& stroke) {
+    contact_.connectionsChanged();
+    return cuts_.cut(textures_, lattice(), stroke);
+}
+
+bool TextureSolver::undoCut() {
+    contact_.connectionsChanged();
+    return cuts_.undo(textures_);
+}
+
+Status TextureSolver::initializeSteps() {
     stepProgram_.each([this](gpu::Program& program) { setKernelUniforms(program, setup_); });
     if (textures_.layout().kind == SRS_LAYOUT_ROWS) {
         stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
         stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
     }
+    loads_ = ToolLoads(setup_);
+    return contact_.initialize(setup_, textures_, loads_.sums());
 }
 
 void TextureSolver::setStepInputs(gpu::Program& program, bool useTexelFetch) {
@@ -30,26 +46,16 @@ void TextureSolver::setStepInputs(gpu::Program& program, bool useTexelFetch) {
     program.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
 }
 
-void TextureSolver::setTools(gpu::Program& program) {
-    if (setup_.tools.empty())
-        return;
-    const std::vector<ToolMotion> tools = toolMotions(setup_, step_);
-    setToolUniforms(program, tools);
-    for (std::size_t i = 0; i < tools.size(); ++i) {
-        if (!tools[i].closes && !tools[i].opens)
-            continue;
-        graspProgram_.image("i_nodeInfo", textures_.nodeInfo(), GL_READ_ONLY);
-        graspProgram_.image("i_positions", textures_.positions(), GL_READ_ONLY);
-        setGraspUniforms(graspProgram_, unsigned(i + 1), tools[i]);
-        const int to = 1 - textures_.currentInfo_;
-        runGrasp(to);
-        textures_.currentInfo_ = to;
+void TextureSolver::takeSteps(int count) {
+    constexpr int kPrepared = 64; // steps whose colliders are uploaded together
+    for (int i = 0; i < count; ++i) {
+        if (i % kPrepared == 0)
+            contact_.prepare(textures_, step_, std::min(kPrepared, count - i));
+        takeStep(i + 1 == count);
+        textures_.current_ = nextHalf();
+        contact_.run(textures_, step_);
+        ++step_;
     }
-}
-
-void TextureSolver::finishStep() {
-    textures_.current_ = nextHalf();
-    ++step_;
 }
 
 } // namespace serosa::sim

@@ -1,14 +1,16 @@
 #pragma once
-// What the fragment and the compute solver share: state textures, the step's and the grasp's programs with
-// what they read, tools, and cuts. The two differ in what runs the kernel and in where it writes.
+// What the fragment and the compute solver share: state textures, the step's program with what it reads,
+// contact and grasps with their loads, and cuts. The two differ in what runs the kernel and in where it
+// writes.
 
 #include "gpu/program.h"
 #include "sim/cell_pass.h"
+#include "sim/contact_pass.h"
 #include "sim/cut_pass.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
 #include "sim/step_program.h"
-#include "sim/tool_motion.h"
+#include "sim/tool_loads.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,8 +23,12 @@ public:
     const StateTextures* textures() const override { return &textures_; }
     LatticeState state() const override { return textures_.download(step_); }
     void setState(const LatticeState& state) override;
-    Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
-    bool undoCut() override { return cuts_.undo(textures_); }
+    std::vector<ToolLoad> takeLoads() override { return loads_.take(); }
+    void endFrame() override { loads_.endFrame(); }
+    std::optional<std::vector<ToolLoad>> frameLoads() override { return loads_.frame(); }
+    std::vector<std::vector<ToolLoad>> flushFrames() override { return loads_.flush(); }
+    Status cut(const Stroke& stroke) override;
+    bool undoCut() override;
     void forgetCuts() override { cuts_.forget(); }
     std::vector<CutLayer> cutLayers() const override { return cuts_.layers(textures_); }
     Status setCutLayers(const std::vector<CutLayer>& layers) override {
@@ -33,28 +39,27 @@ public:
 protected:
     explicit TextureSolver(const SolverSetup& setup) : setup_(setup) {}
 
-    /// What stepProgram_ reads and does not change between steps; the program must be made.
-    void setConstants();
+    /// What stepProgram_ reads and does not change between steps; the program must be made. Makes the contact
+    /// passes. Errors: of their shaders.
+    Status initializeSteps();
     /// What the program of the step to come reads. \param useTexelFetch as KernelOptions
     void setStepInputs(gpu::Program& program, bool useTexelFetch);
-    /// Tools of the step to come: uniforms of its program, and a grasp pass for each that takes hold or lets
-    /// go.
-    void setTools(gpu::Program& program);
+    /// Takes `count` steps: calls takeStep, and lets contact follow.
+    void takeSteps(int count);
     /// The half of the state that the step writes.
     int nextHalf() const { return 1 - textures_.current_; }
-    /// The step is written.
-    void finishStep();
 
     SolverSetup setup_;
     StateTextures textures_;
     StepProgram stepProgram_;
-    gpu::Program graspProgram_;
     CellPass cellPass_; // initialized where the tissue needs it
 
 private:
-    /// Runs graspProgram_, whose inputs are set, over all texels into node info `to`.
-    virtual void runGrasp(int to) = 0;
+    /// The force pass of one step, into nextHalf(). \param last the last one of its advance()
+    virtual void takeStep(bool last) = 0;
 
+    ContactPass contact_;
+    ToolLoads loads_;
     mutable CutPass cuts_; // programs made when first needed
     std::int64_t step_ = 0;
 };

@@ -1,0 +1,41 @@
+// Contact, a round's second pass: each node that triangles ask to move takes the largest of these moves (the first of
+// them, where several are as large). Twin of ContactStage::pushTriangles.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "contact_colliders.glsl"
+#include "contact_loads.glsl"
+#include "contact_nodes.glsl"
+#include "contact_work.glsl"
+
+layout(rgba32f) uniform readonly restrict image2D i_start;
+layout(rgba32f) uniform restrict image2D i_positions;
+layout(rgba32f) uniform restrict image2D i_increments;
+layout(std430) readonly restrict buffer b_corners { uint b_corner[]; }; // triangle * 3 + corner, node by node
+layout(std430) readonly restrict buffer b_asks { uvec4 b_ask[]; };
+layout(std430) readonly restrict buffer b_moverList { uint b_mover[]; };
+uniform int u_round;
+uniform uint u_stamp;
+
+void main() {
+    uint item = gl_GlobalInvocationID.x;
+    if (item >= b_movers[u_round].count)
+        return;
+    uint number = b_mover[item];
+    ContactNode node = b_node[number];
+    vec3 move = vec3(0.0);
+    uint mover = 0u;
+    for (uint i = node.firstCorner; i < node.firstCorner + node.corners; ++i) {
+        uvec4 ask = b_ask[b_corner[i]];
+        if (ask.w >> 4 != u_stamp)
+            continue;
+        vec3 asked = uintBitsToFloat(ask.xyz);
+        if (dot(asked, asked) > dot(move, move)) {
+            move = asked;
+            mover = ask.w & 15u;
+        }
+    }
+    ivec2 texel = texelAt(number);
+    imageStore(i_positions, texel, imageLoad(i_positions, texel) + vec4(move, 0.0));
+    imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(move, 0.0));
+    addLoad(int(mover), node.mass, imageLoad(i_start, texel).xyz, move);
+}

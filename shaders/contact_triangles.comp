@@ -1,0 +1,70 @@
+// Contact, a round's first pass: what each triangle that touches a collider asks of its corners, the largest of all
+// colliders for each corner. Twin of ContactStage::ask.
+#version 450 core
+layout(local_size_x = 64) in;
+#include "contact_triangle.glsl"
+#include "contact_texels.glsl"
+#include "contact_faces.glsl"
+#include "contact_work.glsl"
+
+layout(rgba32f) uniform readonly restrict image2D i_start;
+layout(rgba32f) uniform readonly restrict image2D i_positions;
+layout(std430) readonly restrict buffer b_candidateList { uvec2 b_candidate[]; };
+layout(std430) writeonly restrict buffer b_asks { uvec4 b_ask[]; }; // triangle * 3 + corner: move; stamp, collider
+layout(std430) restrict buffer b_marks { uint b_mark[]; };          // by node: the last round that moved it
+layout(std430) writeonly restrict buffer b_moverList { uint b_mover[]; };
+uniform int u_round;  // 0, 1, ...
+uniform uint u_stamp; // of step and round, below 2^28
+
+void main() {
+    uint item = gl_GlobalInvocationID.x;
+    if (item >= b_candidates.count)
+        return;
+    uvec2 candidate = b_candidate[item];
+    ContactTriangle triangle = b_triangle[candidate.x];
+    vec3 depths = depthsOf(triangle);
+    vec3 start[3], end[3], moves[3] = vec3[3](vec3(0.0), vec3(0.0), vec3(0.0));
+    int movers[3] = int[3](0, 0, 0);
+    for (int k = 0; k < 3; ++k) {
+        start[k] = imageLoad(i_start, texelAt(triangle.nodes[k])).xyz;
+        end[k] = imageLoad(i_positions, texelAt(triangle.nodes[k])).xyz;
+    }
+    for (int c = 0; c < SRS_COLLIDERS; ++c) {
+        if (((candidate.y >> c) & 1u) == 0u)
+            continue;
+        vec3 weights;
+        vec3 depth = max(depths, -0.5 * thinOf(c));
+        vec3 move = triangleContact(
+            c, Corners(ownAtStart(c, start[0]), ownAtStart(c, start[1]), ownAtStart(c, start[2])),
+            Corners(ownAtEnd(c, end[0]), ownAtEnd(c, end[1]), ownAtEnd(c, end[2])), depth, weights);
+        if (move == vec3(0.0))
+            continue;
+        float share = 0.0;
+        for (int k = 0; k < 3; ++k)
+            share += weights[k] * weights[k] * triangle.inverseMasses[k];
+        if (!(share > 0.0)) // fixed
+            continue;
+        move = turned(b_collider[c].turnTo, move);
+        for (int k = 0; k < 3; ++k) {
+            vec3 asked = move * (weights[k] * triangle.inverseMasses[k] / share);
+            if (dot(asked, asked) > dot(moves[k], moves[k])) {
+                moves[k] = asked;
+                movers[k] = c;
+            }
+        }
+    }
+    bool any = false;
+    for (int k = 0; k < 3; ++k) {
+        if (moves[k] == vec3(0.0))
+            continue;
+        any = true;
+        b_ask[candidate.x * 3u + uint(k)] = uvec4(floatBitsToUint(moves[k]), u_stamp << 4 | uint(movers[k]));
+        if (atomicExchange(b_mark[triangle.nodes[k]], u_stamp) != u_stamp) {
+            uint at = atomicAdd(b_movers[u_round].count, 1u);
+            b_mover[at] = triangle.nodes[k];
+            atomicMax(b_movers[u_round].groups, at / 64u + 1u);
+        }
+    }
+    if (any && u_round == 0)
+        atomicMax(b_again.groups, gl_NumWorkGroups.x);
+}

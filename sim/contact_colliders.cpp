@@ -1,0 +1,147 @@
+// See sim/contact_colliders.h.
+#include "sim/contact_colliders.h"
+
+#include "base/check.h"
+#include "shaders/shared_constants.h"
+#include "sim/distance_field.h"
+#include "sim/shape_distance.h"
+
+#include <algorithm>
+#include <map>
+
+namespace serosa::sim {
+
+static_assert(int(ShapeKind::sphere) == SRS_SHAPE_SPHERE && int(ShapeKind::capsule) == SRS_SHAPE_CAPSULE &&
+                  int(ShapeKind::box) == SRS_SHAPE_BOX && int(ShapeKind::hook) == SRS_SHAPE_HOOK &&
+                  int(ShapeKind::halfSpace) == SRS_SHAPE_HALF_SPACE && int(ShapeKind::mesh) == SRS_SHAPE_MESH,
+              "the shaders' words for shapes");
+
+namespace {
+
+constexpr float kEndless = 1e30f; // for infinity, which shaders need not know; contact_held.comp
+
+// As in shaders/contact_colliders.glsl.
+struct GpuCollider {
+    glm::vec4 from, to, turnFrom, turnTo, turnBetween, move, size, middle, halfSize, field;
+};
+
+float finite(double value) {
+    return value < kEndless ? float(value) : kEndless;
+}
+
+glm::vec4 toVec4(const glm::dquat& q) {
+    return glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
+}
+
+GpuCollider gpuCollider(const ToolMotion& motion, int fieldColumn) {
+    const RigidShape& shape = motion.shape;
+    const bool turns = motion.turnFrom != motion.turnTo;
+    const glm::dquat between =
+        turns ? motion.turnTo * glm::conjugate(motion.turnFrom) : glm::dquat(1, 0, 0, 0);
+    GpuCollider to;
+    to.from = glm::vec4(glm::vec3(motion.from), float(motion.mode));
+    to.to = glm::vec4(glm::vec3(motion.to), float(motion.friction));
+    to.turnFrom = toVec4(motion.turnFrom);
+    to.turnTo = toVec4(motion.turnTo);
+    to.turnBetween = toVec4(between);
+    to.move = glm::vec4(glm::vec3(motion.to - motion.from), finite(motion.grip));
+    to.size = glm::vec4(float(shape.radius), float(shape.length), float(shape.bend),
+                        finite(thinnestHalfWidth(shape)));
+    glm::dvec3 middle = shape.middle, halfSize = shape.halfSize;
+    to.field = glm::vec4(0);
+    if (shape.kind == ShapeKind::mesh) {
+        middle = shape.field->lowest() * shape.fieldScale;
+        halfSize = glm::dvec3(shape.field->dims());
+        to.field = glm::vec4(float(fieldColumn), float(shape.field->step() * shape.fieldScale),
+                             float(shape.fieldScale), 0);
+    }
+    to.middle = glm::vec4(glm::vec3(middle), float(int(shape.kind)));
+    to.halfSize = glm::vec4(glm::vec3(halfSize), finite(boundingRadius(shape)));
+    return to;
+}
+
+const RigidShape& shapeOf(const SolverSetup& setup, std::size_t collider) {
+    const std::size_t tools = setup.tools.size();
+    return collider < tools ? setup.tools[collider].shape : setup.bodies[collider - tools].shape;
+}
+
+} // namespace
+
+ContactColliders::ContactColliders(const SolverSetup& setup) : setup_(setup) {
+    const std::size_t count = setup.tools.size() + setup.bodies.size();
+    SEROSA_CHECK(count <= SRS_MAX_COLLIDERS, "at most SRS_MAX_COLLIDERS tools and bodies");
+    if (count == 0)
+        return;
+    const std::size_t step = gpu::uniformOffsetStep();
+    stride_ = (count * sizeof(GpuCollider) + step - 1) / step * step;
+    std::map<const DistanceField*, int> columns; // meshes may share a field
+    int width = 0, height = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        columns_.push_back(0);
+        const RigidShape& shape = shapeOf(setup, i);
+        if (shape.kind != ShapeKind::mesh)
+            continue;
+        const glm::ivec3 dims = shape.field->dims();
+        const auto [at, isNew] = columns.emplace(shape.field.get(), width);
+        if (isNew) {
+            width += dims.x;
+            height = std::max(height, dims.y * dims.z);
+        }
+        columns_.back() = at->second;
+    }
+    if (columns.empty())
+        return;
+    std::vector<float> values(std::size_t(width) * std::size_t(height), 0);
+    for (const auto& [field, column] : columns) {
+        const glm::ivec3 dims = field->dims();
+        for (int row = 0; row < dims.y * dims.z; ++row)
+            std::copy_n(field->values().begin() + std::ptrdiff_t(row) * dims.x, dims.x,
+                        values.begin() + std::ptrdiff_t(row) * width + column);
+    }
+    fields_ = gpu::Texture2D("distance fields", GL_R32F, width, height);
+    fields_.upload(values.data());
+}
+
+std::vector<gpu::ShaderDefine> ContactColliders::defines() const {
+    unsigned shapes = 0;
+    for (std::size_t i = 0; i < count(); ++i)
+        shapes |= 1u << int(shapeOf(setup_, i).kind);
+    return {{"SRS_COLLIDERS", std::to_string(count())},
+            {"SRS_TOOLS", std::to_string(setup_.tools.size())},
+            {"SRS_SHAPES", std::to_string(shapes)}};
+}
+
+void ContactColliders::prepare(std::int64_t step, int count) {
+    first_ = step;
+    motions_.clear();
+    std::vector<unsigned char> bytes(std::size_t(count) * stride_);
+    for (int i = 0; i < count; ++i) {
+        motions_.push_back(colliderMotions(setup_, step + i));
+        std::vector<GpuCollider> colliders;
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            colliders.push_back(gpuCollider(motions_.back()[c], columns_[c]));
+        std::copy_n(reinterpret_cast<const unsigned char*>(colliders.data()),
+                    colliders.size() * sizeof(GpuCollider), bytes.data() + std::size_t(i) * stride_);
+    }
+    if (!steps_ || steps_.bytes() < bytes.size())
+        steps_ = gpu::Buffer("colliders", bytes.size(), bytes.data());
+    else
+        steps_.upload(0, bytes.size(), bytes.data());
+}
+
+const std::vector<ToolMotion>& ContactColliders::motions(std::int64_t step) const {
+    return motions_.at(std::size_t(step - first_));
+}
+
+void ContactColliders::bind(gpu::Program& program, std::int64_t step, bool shapes) const {
+    program.uniforms("b_colliders", steps_, std::size_t(step - first_) * stride_,
+                     columns_.size() * sizeof(GpuCollider));
+    if (shapes && fields_)
+        program.texture("t_fields", fields_);
+}
+
+std::size_t ContactColliders::bytes() const {
+    return steps_.bytes() + (fields_ ? 4 * std::size_t(fields_.width()) * std::size_t(fields_.height()) : 0);
+}
+
+} // namespace serosa::sim
