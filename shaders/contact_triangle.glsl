@@ -83,7 +83,7 @@ vec4 deepestPoint(int c, Corners p, vec3 depth) {
         at = next;
         sampled = sampleShape(c, at);
         float gap = sampled.w - dot(weights, depth);
-        if (gap < best.w)
+        if (gap < best.w + kClose) // float32 does not see the last steps' gain, but a later point is better
             best = vec4(weights, gap);
     }
     return best;
