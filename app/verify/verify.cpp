@@ -146,6 +146,10 @@ const std::vector<VerifyGroup>& verifyGroups() {
          verifyCuts},
         {"stability", "random organs, tools and cuts: no state runs away, and the step's bound is one", true,
          verifyStability},
+        {"contact", "what touches an organ: bounce, friction, impulses, and probes that must not pass", true,
+         verifyContact},
+        {"grasp", "what holds tissue: grip that slips at its force, torque, several at once", true,
+         verifyGrasp},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;

@@ -82,6 +82,8 @@ Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/
 Status verifyFem(const VerifyOptions& options, CheckList& checks);       // app/verify/fem.cpp
 Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify/cuts.cpp
 Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify/stability.cpp
+Status verifyContact(const VerifyOptions& options, CheckList& checks);   // app/verify/contact.cpp
+Status verifyGrasp(const VerifyOptions& options, CheckList& checks);     // app/verify/grasp.cpp
 
 /// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json, report.html and the
 /// groups' pictures if folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5
