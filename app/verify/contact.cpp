@@ -1,6 +1,7 @@
 // Group `contact`: what touches an organ does to it what mechanics says. A ball falls on a floor as the
 // reference has it, a block slides down a slope from tan(angle) = mu on (Coulomb); the parts of it in other
 // files: impulses against momenta, and probes that must not pass a thin sheet.
+#include "app/organ_setup.h"
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
 #include "models/phantom.h"
@@ -41,7 +42,7 @@ Bounce bounceOf(const std::vector<double>& heights) {
 
 /// A ball of tissue, 40 mm across, falls 20 mm.
 Status droppedBall(const VerifyOptions& options, CheckList& checks) {
-    SEROSA_ASSIGN(sim::Lattice lattice, models::phantomLattice("ball", 3000, options.full ? 3000 : 600));
+    SEROSA_ASSIGN(sim::Lattice lattice, models::phantomLattice("ball", 3380, options.full ? 3000 : 600));
     sim::Tissue tissue;
     tissue.young = 20000;
     tissue.dampingTime = 0.002;

@@ -1,5 +1,6 @@
 // Part of group `contact`: what tools and bodies say that they gave is what a free organ got, as momentum and
 // as angular momentum.
+#include "app/organ_setup.h"
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
 #include "app/verify/random_scenario.h"

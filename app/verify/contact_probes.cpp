@@ -1,6 +1,7 @@
 // Part of group `contact`: probes of 0.5 mm to three spacings come at 1 m/s at a sheet one cell thick, from
 // random directions at random places. None may pass: the segment from the probe's centre back to where it
 // came from never crosses the sheet an odd number of times.
+#include "app/organ_setup.h"
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
 #include "app/verify/random_scenario.h"
@@ -90,8 +91,8 @@ Approach approach(std::uint32_t seed, sim::StepMethod method, const std::string&
     if (random.chance(0.3)) { // a rod behind the tip, as wide
         probe.shape.kind = sim::ShapeKind::capsule;
         probe.shape.length = 0.05;
-        probe.keys = {{0, start, glm::rotation(glm::dvec3(0, 0, 1), -direction)}};
-        probe.keys.push_back({seconds, end, probe.keys[0].turn});
+        const glm::dquat turn(glm::dvec3(0, 0, 1), -direction);
+        probe.keys = {{0, start, turn}, {seconds, end, turn}};
     } else {
         probe.keys = {{0, start}, {seconds, end}};
     }

@@ -1,6 +1,7 @@
 // Group `grasp`: what holds tissue holds as hard as it says and no harder. A bar is pulled by a jaw until it
 // slips; a grasp that turns gives a torque; several tools hold at once; a retractor holds its pose under
 // load.
+#include "app/organ_setup.h"
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
 
@@ -113,7 +114,7 @@ Status twists(const VerifyOptions& options, const std::string& name, CheckList& 
 Status twoGrasps(const VerifyOptions& options, const std::string& name, CheckList& checks) {
     const auto bar = makeBar(options);
     bar->setup.fixed.clear();
-    const double seconds = 0.8, way = 0.008;
+    const double seconds = 0.8, way = 0.002;
     for (const double end : {0.0, 12.0}) {
         sim::Tool tool = jaws(std::numeric_limits<double>::infinity());
         const glm::dvec3 at = glm::dvec3(end, 0, 0) * kSpacing, out((end > 0 ? 0.5 : -0.5) * way, 0, 0);
