@@ -3,7 +3,7 @@
 
 #include "base/check.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace serosa::app {
 
@@ -14,8 +14,8 @@ OrganGuard::OrganGuard(OrganParts& organ, const sim::CutList& cuts, double frame
 
 void OrganGuard::restart(int frame) {
     alarm_.reset();
-    organ_.solver->takeToolImpulses();
-    impulses_.assign(organ_.setup.tools.size(), glm::dvec3(0));
+    dropLoads();
+    impulses_.clear();
     sim::LatticeState state = organ_.solver->state(); // as the solver rounds it
     watchdog_.start(state);
     seen_ = accounted_ = frame;
@@ -27,20 +27,35 @@ void OrganGuard::restart(int frame) {
     }
 }
 
-void OrganGuard::account(int frame) {
-    if (accounted_ == frame)
-        return;
-    const std::vector<sim::ToolLoad> loads = organ_.solver->takeLoads();
-    watchdog_.addWork(accounted_ * frameTime_, frame * frameTime_, loads);
-    for (std::size_t i = 0; i < impulses_.size(); ++i)
-        impulses_[i] += loads[i].impulse;
-    accounted_ = frame;
+void OrganGuard::endFrame(int frame) {
+    SEROSA_CHECK(!frozen() && frame > accounted_, "frames of a living organ, in order");
+    organ_.solver->endFrame();
+    if (const auto loads = organ_.solver->frameLoads())
+        account(*loads);
+}
+
+void OrganGuard::account(const std::vector<sim::ToolLoad>& loads) {
+    watchdog_.addWork(accounted_ * frameTime_, (accounted_ + 1) * frameTime_, loads);
+    FrameImpulses impulses{++accounted_, {}};
+    for (std::size_t tool = 0; tool < organ_.setup.tools.size(); ++tool)
+        impulses.impulses.push_back(loads[tool].impulse);
+    impulses_.push_back(std::move(impulses));
+}
+
+void OrganGuard::accountAll() {
+    for (const std::vector<sim::ToolLoad>& loads : organ_.solver->flushFrames())
+        account(loads);
+}
+
+void OrganGuard::dropLoads() {
+    organ_.solver->flushFrames();
+    organ_.solver->takeLoads();
 }
 
 bool OrganGuard::check(int frame) {
     if (frozen() || seen_ == frame)
         return false;
-    account(frame);
+    accountAll();
     sim::LatticeState state = organ_.solver->state();
     if (const std::optional<sim::Alarm> found = watchdog_.check(state)) {
         // Frame by frame first, then the steps of the first bad frame.
@@ -59,18 +74,19 @@ bool OrganGuard::check(int frame) {
     return false;
 }
 
-std::vector<glm::dvec3> OrganGuard::takeToolImpulses(int frame) {
-    if (!frozen())
-        account(frame);
-    std::vector<glm::dvec3> taken(impulses_.size(), glm::dvec3(0));
-    std::swap(taken, impulses_);
-    return taken;
+std::vector<FrameImpulses> OrganGuard::takeImpulses() {
+    return std::exchange(impulses_, {});
+}
+
+std::vector<FrameImpulses> OrganGuard::flushImpulses() {
+    accountAll();
+    return takeImpulses();
 }
 
 std::optional<sim::Alarm> OrganGuard::retrace(Good& good, std::int64_t last, int steps) {
     sim::Solver& solver = *organ_.solver;
     solver.setState(good.state);
-    solver.takeToolImpulses();
+    dropLoads();
     for (std::int64_t step = good.state.step; step < last;) {
         const std::int64_t next = std::min(last, step + steps);
         solver.advance(int(next - step));
@@ -96,7 +112,7 @@ void OrganGuard::freeze(const sim::Alarm& alarm, const Good& good) {
     alarm_->position = organ_.lattice.toWorld(good.state.positions[alarm.node]);
     organ_.solver->setState(good.state);
     organ_.solver->forgetCuts(); // of steps that are taken back
-    organ_.solver->takeToolImpulses();
+    dropLoads();
 }
 
 } // namespace serosa::app

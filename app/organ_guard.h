@@ -16,6 +16,12 @@ namespace serosa::app {
 
 constexpr int kFramesBetweenChecks = 10;
 
+/// What the tools gave to an organ in one frame.
+struct FrameImpulses {
+    int frame = 0;                    // the first is 1
+    std::vector<glm::dvec3> impulses; // N s, one a tool
+};
+
 class OrganGuard {
 public:
     /// An organ with a solver, and its strokes so far; both outlive this.
@@ -23,15 +29,20 @@ public:
 
     /// The solver's state was set from elsewhere, and is that after `frame` frames.
     void restart(int frame);
+    /// Frame number `frame` ends: its steps were taken, and its cuts made. What colliders gave in it comes
+    /// two frames later (Solver::frameLoads), or with a look.
+    void endFrame(int frame);
     /// Looks at the state. True: it is wrong, and the organ was set back and is frozen now. Nothing is done
     /// where the state was seen before.
     bool check(int frame);
 
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }
-    /// Impulses of the tools until `frame` since the last call, as Solver::takeToolImpulses, which is this
-    /// guard's to call. They are read back when they are asked for, or with a look.
-    std::vector<glm::dvec3> takeToolImpulses(int frame);
+    /// What came of the tools' impulses since the last call, frame by frame; the solver's loads are this
+    /// guard's to take.
+    std::vector<FrameImpulses> takeImpulses();
+    /// The same with all of the frames that ended. Waits for the GPU.
+    std::vector<FrameImpulses> flushImpulses();
 
 private:
     /// What was seen to be good, and what the watchdog knew then.
@@ -43,17 +54,20 @@ private:
     /// cuts of the list; `good` follows.
     std::optional<sim::Alarm> retrace(Good& good, std::int64_t last, int steps);
     void freeze(const sim::Alarm& alarm, const Good& good);
-    /// Takes what tools gave until `frame` from the solver.
-    void account(int frame);
+    /// What colliders gave in the frame after the last one that is accounted for.
+    void account(const std::vector<sim::ToolLoad>& loads);
+    void accountAll();
+    /// Forgets what the solver was given so far.
+    void dropLoads();
 
     OrganParts& organ_;
     const sim::CutList& cuts_;
     double frameTime_; // s
     sim::Watchdog watchdog_;
     std::optional<Good> good_;
-    int seen_ = 0, accounted_ = 0; // the frames of good_ and of impulses_
+    int seen_ = 0, accounted_ = 0; // the frames of good_, and of the loads that came
     std::optional<sim::Alarm> alarm_;
-    std::vector<glm::dvec3> impulses_; // N s
+    std::vector<FrameImpulses> impulses_; // not taken yet
 };
 
 } // namespace serosa::app

@@ -111,7 +111,10 @@ public:
             step(frame);
             const bool interrupted = interrupt.interrupted(); // once a frame: the last one is sampled
             const bool sampled = frame % kSampleEvery == 0 || frame == frames_ || interrupted;
-            if (sampled || surfaceFrames_.contains(frame) || files_.due(frame))
+            const bool written = sampled || surfaceFrames_.contains(frame) || files_.due(frame);
+            if (written || drawn(frame))
+                finishSteps();
+            if (written)
                 player_.check(); // nothing is written of a state that is wrong
             SEROSA_TRY(picture(frame));
             record_.framesDone = frame;
@@ -122,6 +125,8 @@ public:
                 record_.end = "interrupted";
             progress.show(frame);
         }
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+            addForces(player_.flushImpulses(i));
         noteAlarms();
         return {};
     }
@@ -173,21 +178,28 @@ private:
     void step(int frame) {
         Stopwatch watch(record_.times.steps);
         player_.advance();
-        ToolForce force{frame * frameTime_, {}};
-        for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-            if (!parts_.organs[i]->solver)
-                continue;
-            const std::vector<glm::dvec3> impulses = player_.takeToolImpulses(i);
-            if (force.forces.empty())
-                force.forces = impulses;
-            else
-                for (std::size_t tool = 0; tool < impulses.size(); ++tool)
-                    force.forces[tool] += impulses[tool];
+        const std::size_t tools = parts_.scene.tools.size();
+        if (tools > 0 && record_.solver != "pose")
+            record_.toolForces.push_back({frame * frameTime_, std::vector<glm::dvec3>(tools, glm::dvec3(0))});
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+            addForces(player_.takeImpulses(i));
+    }
+
+    /// Each to the frame that it was given in: the GPU's come two frames later.
+    void addForces(const std::vector<FrameImpulses>& frames) {
+        for (const FrameImpulses& given : frames) {
+            if (record_.toolForces.empty())
+                return; // there are bodies alone
+            const std::size_t first = std::size_t(std::lround(record_.toolForces.front().time / frameTime_));
+            ToolForce& force = record_.toolForces.at(std::size_t(given.frame) - first);
+            for (std::size_t tool = 0; tool < given.impulses.size(); ++tool)
+                force.forces[tool] += given.impulses[tool] / frameTime_;
         }
-        for (glm::dvec3& impulse : force.forces)
-            impulse /= frameTime_;
-        if (!force.forces.empty())
-            record_.toolForces.push_back(std::move(force));
+    }
+
+    /// Steps are done before anything else is timed.
+    void finishSteps() {
+        Stopwatch watch(record_.times.steps);
         glFinish();
     }
 
@@ -239,12 +251,15 @@ private:
         record.pieces = sim::countPieces(sim::pieceLabels(lattice, connections));
     }
 
+    bool isPicture(int frame) const {
+        return frame % parts_.scene.output.frameEvery == 0 || frame == frames_;
+    }
+    bool drawn(int frame) const { return isPicture(frame) || sheetFrames_.contains(frame); }
+
     Status picture(int frame) {
-        const sim::Output& output = parts_.scene.output;
-        const bool written = frame % output.frameEvery == 0 || frame == frames_,
-                   tile = sheetFrames_.contains(frame);
-        if (!written && !tile)
+        if (!drawn(frame))
             return {};
+        const bool tile = sheetFrames_.contains(frame);
         {
             Stopwatch watch(record_.times.draw);
             drawScene(frame);
@@ -257,7 +272,7 @@ private:
             tiles_.push_back(render::shrink(image, kTileWidth));
             captions_.emplace_back(caption);
         }
-        if (!written)
+        if (!isPicture(frame))
             return {};
         ++record_.picturesWritten;
         pictureFrames_.push_back(frame);

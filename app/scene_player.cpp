@@ -74,6 +74,7 @@ void ScenePlayer::advance() {
                 continue;
             organ.solver->advance(organ.step.stepsPerFrame);
             cut(i);
+            guards_[i]->endFrame(frame_);
             if (organ.uploaded)
                 organ.uploaded->upload(organ.solver->state());
             continue;
@@ -149,8 +150,12 @@ std::vector<std::string> ScenePlayer::alarmLines() const {
     return lines;
 }
 
-std::vector<glm::dvec3> ScenePlayer::takeToolImpulses(std::size_t organ) {
-    return guards_[organ] ? guards_[organ]->takeToolImpulses(frame_) : std::vector<glm::dvec3>();
+std::vector<FrameImpulses> ScenePlayer::takeImpulses(std::size_t organ) {
+    return guards_[organ] ? guards_[organ]->takeImpulses() : std::vector<FrameImpulses>();
+}
+
+std::vector<FrameImpulses> ScenePlayer::flushImpulses(std::size_t organ) {
+    return guards_[organ] ? guards_[organ]->flushImpulses() : std::vector<FrameImpulses>();
 }
 
 } // namespace serosa::app

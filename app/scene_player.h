@@ -24,7 +24,7 @@ public:
     void advance();
     /// Back to rest, frame 0.
     void reset();
-    /// All of the state, after frame() frames (reads back, stalls). Takes the tools' pending impulses.
+    /// All of the state, after frame() frames (reads back, stalls).
     sim::Snapshot snapshot();
     /// Goes on from a snapshot that belongs to the scene (app/scene_snapshot.h).
     void restore(const sim::Snapshot& snapshot);
@@ -46,8 +46,11 @@ public:
     std::optional<sim::Alarm> alarm(std::size_t organ) const;
     /// "NAME: ..." a line for each organ that is frozen.
     std::vector<std::string> alarmLines() const;
-    /// Impulses that the tools gave to an organ since the last call, N s; empty for a pose.
-    std::vector<glm::dvec3> takeToolImpulses(std::size_t organ);
+    /// What came since the last call of what the tools gave to an organ, frame by frame, each two frames
+    /// after its own at the latest; of a pose nothing. A frozen organ is given nothing any more.
+    std::vector<FrameImpulses> takeImpulses(std::size_t organ);
+    /// The same with all of the frames until now. Waits for the GPU.
+    std::vector<FrameImpulses> flushImpulses(std::size_t organ);
 
 private:
     /// The scene's cuts and tears of the frame that ends now.

@@ -24,7 +24,7 @@ void main() {
         if (holder == uint(c + 1) && ((u_opens >> c) & 1u) != 0u)
             holder = 0u;
         if (holder == 0u && ((u_closes >> c) & 1u) != 0u && (info.x & SRS_FLAG_FIXED) == 0u &&
-            sampleShape(c, ownAtStart(c, imageLoad(i_start, texel).xyz)).w < 0.0)
+            sampleShape(c, ownAtStart(c, dvec3(imageLoad(i_start, texel).xyz))).w < 0.0)
             holder = uint(c + 1);
     }
     if (holder != before) {

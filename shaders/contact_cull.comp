@@ -32,16 +32,14 @@ void main() {
     for (int c = 0; c < SRS_COLLIDERS; ++c) {
         if (modeOf(c) != SRS_TOOL_PUSH || shapeOf(c) == SRS_SHAPE_HALF_SPACE)
             continue;
-        float apart = distance(end[0], b_collider[c].to.xyz), reach = edge + kDeepest + kNearBy;
-        reach += relativePath(c, path, apart + edge + path + length(b_collider[c].move.xyz));
-        if (!(apart <= b_collider[c].halfSize.w + reach))
+        if (isFar(c, end[0], path + edge, edge + 1.1 * kDeepest + kNearBy))
             continue;
-        float own = 0.0;
+        double own = 0.0;
         for (int k = 0; k < 3; ++k)
-            own = max(own, distance(end[k], x[k] + carriedBy(c, x[k])));
-        vec3 depths = depthsOf(triangle);
-        float depth = max(max(depths.x, depths.y), max(depths.z, -0.5 * thinOf(c)));
-        if (sampleShape(c, ownAtEnd(c, end[0])).w <= edge + own + depth + kNearBy)
+            own = max(own, distance(dvec3(end[k]), carried(c, dvec3(x[k]))));
+        dvec3 depths = depthsOf(triangle);
+        double depth = max(max(depths.x, depths.y), max(depths.z, -0.5lf * thinOf(c)));
+        if (sampleShape(c, ownAtEnd(c, dvec3(end[0]))).w <= edge + own + depth + kNearBy)
             mask |= 1u << c;
     }
     if (mask == 0u)

@@ -30,16 +30,16 @@ void main() {
     if (modeOf(c) == SRS_TOOL_GRASP) {
         vec3 x = imageLoad(i_start, texel).xyz;
         vec4 free = imageLoad(i_positions, texel);
-        float grip = b_collider[c].move.w;
-        vec3 by = (x - free.xyz) + carriedBy(c, x);
-        float far = length(by), most = grip / max(heldMass(holder), 1e-9);
+        double grip = b_collider[c].to.w;
+        vec3 by = vec3(carried(c, dvec3(x)) - dvec3(free.xyz));
+        float far = length(by), most = float(grip / max(heldMass(holder), 1e-9));
         if (far > most)
             by *= most / far;
         vec3 end = free.xyz + by;
         imageStore(i_positions, texel, vec4(end, free.w));
         imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(by, 0.0));
         addLoad(c, mass, x, by);
-        if (grip < kEndlessGrip && sampleShape(c, ownAtEnd(c, end)).w > SRS_GRIP_SLACK) {
+        if (grip < kEndlessGrip && sampleShape(c, ownAtEnd(c, dvec3(end))).w > SRS_GRIP_SLACK) {
             info.x &= ~(SRS_HELD_MASK << SRS_HELD_SHIFT);
             imageStore(i_nodeInfo, texel, info);
             return;

@@ -31,13 +31,7 @@ void main() {
     for (int c = 0; c < SRS_COLLIDERS; ++c) {
         if (modeOf(c) != SRS_TOOL_PUSH)
             continue;
-        float apart = distance(end, b_collider[c].to.xyz);
-        float reach = kDeepest + relativePath(c, path, apart + path + length(b_collider[c].move.xyz));
-        if (!(apart < b_collider[c].halfSize.w + reach))
-            continue;
-        vec3 y1 = ownAtEnd(c, end);
-        float gap = sampleShape(c, y1).w;
-        if (!(gap < reach))
+        if (isFar(c, end, path, 1.1 * kDeepest))
             continue;
         if (info == 0u) {
             info = imageLoad(i_nodeInfo, texel).x;
@@ -45,15 +39,14 @@ void main() {
                 return;
             mass = b_node[numberOf(texel)].mass;
         }
-        vec3 y0 = ownAtStart(c, x);
-        float own = distance(y0, y1);
-        float depth = contactDepthFor(depthOf(info), thinOf(c));
-        if (!(gap - depth < own)) // no part of the way is nearer
+        dvec3 y0 = ownAtStart(c, dvec3(x)), y1 = ownAtEnd(c, dvec3(end));
+        double own = distance(y0, y1), depth = contactDepthFor(depthOf(info), thinOf(c));
+        if (!(sampleShape(c, y1).w - depth < own)) // no part of the way is nearer
             continue;
-        vec3 move = pointContact(c, y0, y1, depth, sweepSamples(own, thinOf(c)));
-        if (move == vec3(0.0))
+        dvec3 exact = pointContact(c, y0, y1, depth, sweepSamples(own, thinOf(c)));
+        if (exact == dvec3(0.0))
             continue;
-        move = turned(b_collider[c].turnTo, move);
+        vec3 move = vec3(turned(b_collider[c].turnTo, exact));
         end += move;
         moved += move;
         path = distance(x, end);

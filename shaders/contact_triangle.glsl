@@ -2,99 +2,105 @@
 #include "contact_point.glsl"
 
 struct Corners {
-    vec3 a, b, c;
+    dvec3 a, b, c;
 };
 
-vec3 weigh(Corners p, vec3 weights) { return weights.x * p.a + weights.y * p.b + weights.z * p.c; }
+dvec3 weigh(Corners p, dvec3 weights) { return weights.x * p.a + weights.y * p.b + weights.z * p.c; }
 
-float longestEdge(Corners p) { return max(max(distance(p.a, p.b), distance(p.b, p.c)), distance(p.c, p.a)); }
+double longestEdge(Corners p) { return max(max(distance(p.a, p.b), distance(p.b, p.c)), distance(p.c, p.a)); }
 
 /// The vector in the triangle's plane along which the interpolated depth grows.
-vec3 depthGradient(Corners p, vec3 depth) {
-    vec3 e = p.b - p.a, f = p.c - p.a;
-    float ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
-    if (!(det > 1e-6 * ee * ff))
-        return vec3(0.0);
-    float a = depth.y - depth.x, b = depth.z - depth.x;
+dvec3 depthGradient(Corners p, dvec3 depth) {
+    dvec3 e = p.b - p.a, f = p.c - p.a;
+    double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
+    if (!(det > 1e-12 * ee * ff))
+        return dvec3(0.0);
+    double a = depth.y - depth.x, b = depth.z - depth.x;
     return ((a * ff - b * ef) * e + (b * ee - a * ef) * f) / det;
 }
 
 /// Where along from..to lies what is nearest to p: 0 to 1.
-float alongEdge(vec3 p, vec3 from, vec3 to) {
-    vec3 edge = to - from;
-    float length2 = dot(edge, edge);
-    return length2 > 0.0 ? clamp(dot(p - from, edge) / length2, 0.0, 1.0) : 0.0;
+double alongEdge(dvec3 p, dvec3 from, dvec3 to) {
+    dvec3 edge = to - from;
+    double length2 = dot(edge, edge);
+    return length2 > 0.0 ? clamp(dot(p - from, edge) / length2, 0.0lf, 1.0lf) : 0.0;
 }
 
 /// Weights of the triangle's point that is nearest to p.
-vec3 closestOnTriangle(vec3 p, Corners t) {
-    vec3 ab = t.b - t.a, ac = t.c - t.a, normal = cross(ab, ac), ap = p - t.a;
-    float whole = dot(normal, normal);
+dvec3 closestOnTriangle(dvec3 p, Corners t) {
+    dvec3 ab = t.b - t.a, ac = t.c - t.a, normal = cross(ab, ac), ap = p - t.a;
+    double whole = dot(normal, normal);
     if (whole > 0.0) {
-        float wb = dot(cross(ap, ac), normal) / whole, wc = dot(cross(ab, ap), normal) / whole;
+        double wb = dot(cross(ap, ac), normal) / whole, wc = dot(cross(ab, ap), normal) / whole;
         if (wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0)
-            return vec3(1.0 - wb - wc, wb, wc);
+            return dvec3(1.0 - wb - wc, wb, wc);
     }
-    float s = alongEdge(p, t.a, t.b);
-    vec3 best = vec3(1.0 - s, s, 0.0);
-    vec3 apart = p - weigh(t, best);
-    float nearest = dot(apart, apart);
+    double s = alongEdge(p, t.a, t.b);
+    dvec3 best = dvec3(1.0 - s, s, 0.0);
+    dvec3 apart = p - weigh(t, best);
+    double nearest = dot(apart, apart);
     s = alongEdge(p, t.a, t.c);
-    vec3 other = vec3(1.0 - s, 0.0, s);
+    dvec3 other = dvec3(1.0 - s, 0.0, s);
     apart = p - weigh(t, other);
     if (dot(apart, apart) < nearest) {
         nearest = dot(apart, apart);
         best = other;
     }
     s = alongEdge(p, t.b, t.c);
-    other = vec3(0.0, 1.0 - s, s);
+    other = dvec3(0.0, 1.0 - s, s);
     apart = p - weigh(t, other);
     return dot(apart, apart) < nearest ? other : best;
 }
 
 /// Corners, edge middles and centroid.
-vec3 startWeights(int i) {
+dvec3 startWeights(int i) {
     if (i < 3)
-        return vec3(i == 0, i == 1, i == 2);
-    return i == 6 ? vec3(1.0 / 3.0) : vec3(i != 4, i != 5, i != 3) * 0.5;
+        return dvec3(i == 0, i == 1, i == 2);
+    return i == 6 ? dvec3(1.0lf / 3.0lf) : dvec3(i != 4, i != 5, i != 3) * 0.5;
 }
 
 /// xyz: weights of the point with the least gap; w: this gap.
-vec4 deepestPoint(int c, Corners p, vec3 depth) {
-    vec4 best = vec4(0.0), sampled = vec4(0.0);
+dvec4 deepestPoint(int c, Corners p, dvec3 depth) {
+    dvec4 best = dvec4(0.0), sampled = dvec4(0.0);
     for (int i = 0; i < 7; ++i) {
-        vec3 weights = startWeights(i);
-        vec4 here = sampleShape(c, weigh(p, weights));
-        float gap = here.w - dot(weights, depth);
+        dvec3 weights = startWeights(i);
+        dvec4 here = sampleShape(c, weigh(p, weights));
+        double gap = here.w - dot(weights, depth);
         if (i == 0 || gap < best.w) {
-            best = vec4(weights, gap);
+            best = dvec4(weights, gap);
             sampled = here;
         }
     }
-    vec3 uphill = depthGradient(p, depth);
-    float least = 0.25 * longestEdge(p);
-    vec3 at = weigh(p, best.xyz);
+    dvec3 uphill = depthGradient(p, depth);
+    double least = 0.25lf * longestEdge(p);
+    dvec3 at = weigh(p, best.xyz);
+    double stretch = 1.0;
     for (int i = 0; i < SRS_TRIANGLE_ITERATIONS; ++i) {
-        float stride = max(abs(sampled.w + b_collider[c].size.x), least);
-        vec3 weights = closestOnTriangle(at - stride * (sampled.xyz - uphill), p);
-        vec3 next = weigh(p, weights), moved = next - at;
-        if (dot(moved, moved) < 1e-12)
+        double stride = stretch * max(abs(sampled.w + b_collider[c].size.x), least);
+        dvec3 weights = closestOnTriangle(at - stride * (sampled.xyz - uphill), p);
+        dvec3 next = weigh(p, weights), moved = next - at;
+        if (dot(moved, moved) < 1e-16)
             break;
-        at = next;
-        sampled = sampleShape(c, at);
-        float gap = sampled.w - dot(weights, depth);
-        if (gap < best.w + kClose) // float32 does not see the last steps' gain, but a later point is better
-            best = vec4(weights, gap);
+        dvec4 here = sampleShape(c, next);
+        double gap = here.w - dot(weights, depth);
+        if (gap < best.w) {
+            best = dvec4(weights, gap);
+            at = next;
+            sampled = here;
+            stretch *= 2.0lf;
+        } else {
+            stretch *= 0.25lf;
+        }
     }
     return best;
 }
 
 /// The move of the triangle's point with `weights`; zero: no contact.
-vec3 triangleContact(int c, Corners y0, Corners y1, vec3 depth, out vec3 weights) {
-    float path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
+dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 depth, out dvec3 weights) {
+    double path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
     int samples = sweepSamples(path, thinOf(c));
-    vec4 deepest = vec4(0.0);
-    float s = 1.0; // the end first, then from the start on
+    dvec4 deepest = dvec4(0.0);
+    double s = 1.0; // the end first, then from the start on
     for (int look = 0, k = 0; look <= SRS_SWEEP_SAMPLES; ++look) {
         Corners there = y1;
         if (look > 0)
@@ -103,13 +109,13 @@ vec3 triangleContact(int c, Corners y0, Corners y1, vec3 depth, out vec3 weights
         if (deepest.w < 0.0 || samples == 1)
             break;
         if (look > 0)
-            k += max(1, int(min(deepest.w * float(samples) / path, float(samples)))); // apart until then
+            k += max(1, int(min(deepest.w * double(samples) / path, double(samples)))); // apart until then
         if (k >= samples)
             break;
-        s = float(k) / float(samples);
+        s = double(k) / double(samples);
     }
     weights = deepest.xyz;
     if (!(deepest.w < 0.0))
-        return vec3(0.0);
+        return dvec3(0.0);
     return pointContact(c, weigh(y0, weights), weigh(y1, weights), dot(weights, depth), samples);
 }

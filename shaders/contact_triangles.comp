@@ -2,6 +2,7 @@
 // colliders for each corner. Twin of ContactStage::ask.
 #version 450 core
 layout(local_size_x = 64) in;
+#include "contact_shares.glsl"
 #include "contact_triangle.glsl"
 #include "contact_texels.glsl"
 #include "contact_faces.glsl"
@@ -22,31 +23,29 @@ void main() {
         return;
     uvec2 candidate = b_candidate[item];
     ContactTriangle triangle = b_triangle[candidate.x];
-    vec3 depths = depthsOf(triangle);
-    vec3 start[3], end[3], moves[3] = vec3[3](vec3(0.0), vec3(0.0), vec3(0.0));
+    dvec3 depths = depthsOf(triangle);
+    dvec3 start[3], end[3];
+    vec3 moves[3] = vec3[3](vec3(0.0), vec3(0.0), vec3(0.0));
     int movers[3] = int[3](0, 0, 0);
     for (int k = 0; k < 3; ++k) {
-        start[k] = imageLoad(i_start, texelAt(triangle.nodes[k])).xyz;
-        end[k] = imageLoad(i_positions, texelAt(triangle.nodes[k])).xyz;
+        start[k] = dvec3(imageLoad(i_start, texelAt(triangle.nodes[k])).xyz);
+        end[k] = dvec3(imageLoad(i_positions, texelAt(triangle.nodes[k])).xyz);
     }
     for (int c = 0; c < SRS_COLLIDERS; ++c) {
         if (((candidate.y >> c) & 1u) == 0u)
             continue;
-        vec3 weights;
-        vec3 depth = max(depths, -0.5 * thinOf(c));
-        vec3 move = triangleContact(
+        dvec3 weights;
+        dvec3 depth = max(depths, dvec3(-0.5lf * thinOf(c)));
+        dvec3 move = triangleContact(
             c, Corners(ownAtStart(c, start[0]), ownAtStart(c, start[1]), ownAtStart(c, start[2])),
             Corners(ownAtEnd(c, end[0]), ownAtEnd(c, end[1]), ownAtEnd(c, end[2])), depth, weights);
-        if (move == vec3(0.0))
+        if (move == dvec3(0.0))
             continue;
-        float share = 0.0;
-        for (int k = 0; k < 3; ++k)
-            share += weights[k] * weights[k] * triangle.inverseMasses[k];
-        if (!(share > 0.0)) // fixed
-            continue;
+        dvec3 shares = cornerShares(weights, dvec3(triangle.inverseMasses[0], triangle.inverseMasses[1],
+                                                   triangle.inverseMasses[2])); // 0 where all are fixed
         move = turned(b_collider[c].turnTo, move);
         for (int k = 0; k < 3; ++k) {
-            vec3 asked = move * (weights[k] * triangle.inverseMasses[k] / share);
+            vec3 asked = vec3(move * shares[k]);
             if (dot(asked, asked) > dot(moves[k], moves[k])) {
                 moves[k] = asked;
                 movers[k] = c;

@@ -2,39 +2,41 @@
 // program defines SRS_SHAPES, a bit for each SRS_SHAPE_... that it meets: others cost nothing.
 #include "contact_colliders.glsl"
 
+const double kOnCore = 1e-9; // nearer to a core no direction leads away from it
+
 #define SRS_MEETS(shape) ((SRS_SHAPES >> (shape)) & 1)
 
 // xyz: gradient of length 1 (on a core, where there is none, (0, 1, 0)); w: distance.
-vec4 aroundCore(vec3 fromCore, float radius) {
-    float apart = length(fromCore);
-    return vec4(apart > 1e-6 ? fromCore / apart : vec3(0.0, 1.0, 0.0), apart - radius);
+dvec4 aroundCore(dvec3 fromCore, double radius) {
+    double apart = length(fromCore);
+    return dvec4(apart > kOnCore ? fromCore / apart : dvec3(0.0, 1.0, 0.0), apart - radius);
 }
 
-vec3 fromShank(vec3 p, float side, float len) { return p - vec3(0.0, side, clamp(p.z, 0.0, len)); }
+dvec3 fromShank(dvec3 p, double side, double len) { return p - dvec3(0.0, side, clamp(p.z, 0.0, len)); }
 
 #if SRS_MEETS(SRS_SHAPE_HOOK)
-vec3 fromHook(vec3 p, float bend, float len) {
-    float across = length(p.yz);
-    vec3 nearest = vec3(0.0, p.y < 0.0 ? -bend : bend, 0.0); // beyond the half circle: its ends
+dvec3 fromHook(dvec3 p, double bend, double len) {
+    double across = length(p.yz);
+    dvec3 nearest = dvec3(0.0, p.y < 0.0 ? -bend : bend, 0.0); // beyond the half circle: its ends
     if (p.z <= 0.0)
-        nearest = across > 1e-6 ? vec3(0.0, p.yz) * (bend / across) : vec3(0.0, 0.0, -bend);
-    vec3 arc = p - nearest, shank = fromShank(p, -bend, len);
+        nearest = across > kOnCore ? dvec3(0.0, p.yz) * (bend / across) : dvec3(0.0, 0.0, -bend);
+    dvec3 arc = p - nearest, shank = fromShank(p, -bend, len);
     return dot(shank, shank) < dot(arc, arc) ? shank : arc;
 }
 #endif
 
 #if SRS_MEETS(SRS_SHAPE_BOX)
-vec4 aroundBox(vec3 p, vec3 halfSize, float radius) {
-    vec3 outward = abs(p) - halfSize;
-    vec3 side = vec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
-    vec3 beyond = max(outward, 0.0);
-    float apart = length(beyond);
-    if (apart > 1e-6)
-        return vec4(side * beyond / apart, apart - radius);
+dvec4 aroundBox(dvec3 p, dvec3 halfSize, double radius) {
+    dvec3 outward = abs(p) - halfSize;
+    dvec3 side = dvec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
+    dvec3 beyond = max(outward, 0.0);
+    double apart = length(beyond);
+    if (apart > kOnCore)
+        return dvec4(side * beyond / apart, apart - radius);
     if (outward.x >= outward.y && outward.x >= outward.z) // the nearest face
-        return vec4(side.x, 0.0, 0.0, outward.x - radius);
-    return outward.y >= outward.z ? vec4(0.0, side.y, 0.0, outward.y - radius)
-                                  : vec4(0.0, 0.0, side.z, outward.z - radius);
+        return dvec4(side.x, 0.0, 0.0, outward.x - radius);
+    return outward.y >= outward.z ? dvec4(0.0, side.y, 0.0, outward.y - radius)
+                                  : dvec4(0.0, 0.0, side.z, outward.z - radius);
 }
 #endif
 
@@ -43,43 +45,45 @@ vec4 aroundBox(vec3 p, vec3 halfSize, float radius) {
 // sample by sample: a texture unit's own interpolation has 8 bits, and gives no gradient.
 uniform sampler2D t_fields;
 
-vec4 sampleField(int c, vec3 own) {
-    float spacing = b_collider[c].field.y;
-    vec3 lowest = b_collider[c].middle.xyz;
-    ivec3 dims = ivec3(b_collider[c].halfSize.xyz);
-    vec3 within = clamp(own, lowest, lowest + spacing * vec3(dims - 1));
-    vec3 at = (within - lowest) / spacing;
+double fieldAt(ivec2 texel) { return double(texelFetch(t_fields, texel, 0).x); }
+
+dvec4 sampleField(int c, dvec3 own) {
+    double spacing = b_collider[c].halfSize.x, scale = b_collider[c].halfSize.y;
+    dvec3 lowest = b_collider[c].middle.xyz;
+    ivec3 dims = ivec3(b_collider[c].kind.zw, b_collider[c].field.x);
+    dvec3 within = clamp(own, lowest, lowest + spacing * dvec3(dims - 1));
+    dvec3 at = (within - lowest) / spacing;
     ivec3 cell = clamp(ivec3(at), ivec3(0), dims - 2);
-    vec3 share = clamp(at - vec3(cell), 0.0, 1.0);
-    ivec2 first = ivec2(int(b_collider[c].field.x) + cell.x, cell.y + dims.y * cell.z);
-    vec4 low, high; // at x and x + 1: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
-    low.x = texelFetch(t_fields, first, 0).x;
-    low.y = texelFetch(t_fields, first + ivec2(0, 1), 0).x;
-    low.z = texelFetch(t_fields, first + ivec2(0, dims.y), 0).x;
-    low.w = texelFetch(t_fields, first + ivec2(0, dims.y + 1), 0).x;
-    high.x = texelFetch(t_fields, first + ivec2(1, 0), 0).x;
-    high.y = texelFetch(t_fields, first + ivec2(1, 1), 0).x;
-    high.z = texelFetch(t_fields, first + ivec2(1, dims.y), 0).x;
-    high.w = texelFetch(t_fields, first + ivec2(1, dims.y + 1), 0).x;
-    vec4 along = mix(low, high, share.x), slopes = high - low;
-    vec2 mixedY = mix(along.xz, along.yw, share.y), slopesX = mix(slopes.xz, slopes.yw, share.y);
-    float value = mix(mixedY.x, mixedY.y, share.z) * b_collider[c].field.z;
-    vec3 gradient = vec3(mix(slopesX.x, slopesX.y, share.z), mix(along.y - along.x, along.w - along.z, share.z),
-                         mixedY.y - mixedY.x) * (b_collider[c].field.z / spacing);
-    vec3 beyond = own - within; // sim/distance_field.h
-    float away2 = dot(beyond, beyond);
+    dvec3 share = clamp(at - dvec3(cell), 0.0, 1.0);
+    ivec2 first = ivec2(b_collider[c].field.y + cell.x, cell.y + dims.y * cell.z);
+    dvec4 low, high; // at x and x + 1: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
+    low.x = fieldAt(first);
+    low.y = fieldAt(first + ivec2(0, 1));
+    low.z = fieldAt(first + ivec2(0, dims.y));
+    low.w = fieldAt(first + ivec2(0, dims.y + 1));
+    high.x = fieldAt(first + ivec2(1, 0));
+    high.y = fieldAt(first + ivec2(1, 1));
+    high.z = fieldAt(first + ivec2(1, dims.y));
+    high.w = fieldAt(first + ivec2(1, dims.y + 1));
+    dvec4 along = mix(low, high, share.x), slopes = high - low;
+    dvec2 mixedY = mix(along.xz, along.yw, share.y), slopesX = mix(slopes.xz, slopes.yw, share.y);
+    double value = mix(mixedY.x, mixedY.y, share.z) * scale;
+    dvec3 gradient = dvec3(mix(slopesX.x, slopesX.y, share.z), mix(along.y - along.x, along.w - along.z, share.z),
+                         mixedY.y - mixedY.x) * (scale / spacing);
+    dvec3 beyond = own - within; // sim/distance_field.h
+    double away2 = dot(beyond, beyond);
     if (away2 > 0.0) {
-        float near = max(value, 0.0);
+        double near = max(value, 0.0);
         value = sqrt(away2 + near * near);
         gradient = beyond + near * gradient;
     }
-    float len = length(gradient);
-    return vec4(len > 1e-6 ? gradient / len : vec3(0.0, 1.0, 0.0), value);
+    double len = length(gradient);
+    return dvec4(len > kOnCore ? gradient / len : dvec3(0.0, 1.0, 0.0), value);
 }
 #endif
 
-vec4 sampleShape(int c, vec3 own) {
-    float radius = b_collider[c].size.x;
+dvec4 sampleShape(int c, dvec3 own) {
+    double radius = b_collider[c].size.x;
     int shape = shapeOf(c);
 #if SRS_MEETS(SRS_SHAPE_CAPSULE)
     if (shape == SRS_SHAPE_CAPSULE)
@@ -95,11 +99,11 @@ vec4 sampleShape(int c, vec3 own) {
 #endif
 #if SRS_MEETS(SRS_SHAPE_HALF_SPACE)
     if (shape == SRS_SHAPE_HALF_SPACE)
-        return vec4(0.0, 1.0, 0.0, own.y - radius);
+        return dvec4(0.0, 1.0, 0.0, own.y - radius);
 #endif
 #if SRS_MEETS(SRS_SHAPE_MESH)
     if (shape == SRS_SHAPE_MESH)
-        return sampleField(c, own) - vec4(0.0, 0.0, 0.0, radius);
+        return sampleField(c, own) - dvec4(0.0, 0.0, 0.0, radius);
 #endif
     return aroundCore(own, radius);
 }

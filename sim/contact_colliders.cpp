@@ -18,19 +18,21 @@ static_assert(int(ShapeKind::sphere) == SRS_SHAPE_SPHERE && int(ShapeKind::capsu
 
 namespace {
 
-constexpr float kEndless = 1e30f; // for infinity, which shaders need not know; contact_held.comp
+constexpr double kEndless = 1e30; // for infinity, which shaders need not know; contact_held.comp
 
 // As in shaders/contact_colliders.glsl.
 struct GpuCollider {
-    glm::vec4 from, to, turnFrom, turnTo, turnBetween, move, size, middle, halfSize, field;
+    glm::dvec4 from, to, turnFrom, turnTo, turnBetween, size, middle, halfSize;
+    glm::vec4 ball, move;
+    glm::ivec4 kind, field;
 };
 
-float finite(double value) {
-    return value < kEndless ? float(value) : kEndless;
+double finite(double value) {
+    return std::min(value, kEndless);
 }
 
-glm::vec4 toVec4(const glm::dquat& q) {
-    return glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w));
+glm::dvec4 toVec4(const glm::dquat& q) {
+    return {q.x, q.y, q.z, q.w};
 }
 
 GpuCollider gpuCollider(const ToolMotion& motion, int fieldColumn) {
@@ -38,25 +40,26 @@ GpuCollider gpuCollider(const ToolMotion& motion, int fieldColumn) {
     const bool turns = motion.turnFrom != motion.turnTo;
     const glm::dquat between =
         turns ? motion.turnTo * glm::conjugate(motion.turnFrom) : glm::dquat(1, 0, 0, 0);
-    GpuCollider to;
-    to.from = glm::vec4(glm::vec3(motion.from), float(motion.mode));
-    to.to = glm::vec4(glm::vec3(motion.to), float(motion.friction));
+    GpuCollider to{};
+    to.from = glm::dvec4(motion.from, motion.friction);
+    to.to = glm::dvec4(motion.to, finite(motion.grip));
     to.turnFrom = toVec4(motion.turnFrom);
     to.turnTo = toVec4(motion.turnTo);
     to.turnBetween = toVec4(between);
-    to.move = glm::vec4(glm::vec3(motion.to - motion.from), finite(motion.grip));
-    to.size = glm::vec4(float(shape.radius), float(shape.length), float(shape.bend),
-                        finite(thinnestHalfWidth(shape)));
-    glm::dvec3 middle = shape.middle, halfSize = shape.halfSize;
-    to.field = glm::vec4(0);
+    to.size = glm::dvec4(shape.radius, shape.length, shape.bend, finite(thinnestHalfWidth(shape)));
+    to.middle = glm::dvec4(shape.middle, 0);
+    to.halfSize = glm::dvec4(shape.halfSize, 0);
+    to.kind = {motion.mode, int(shape.kind), 0, 0};
     if (shape.kind == ShapeKind::mesh) {
-        middle = shape.field->lowest() * shape.fieldScale;
-        halfSize = glm::dvec3(shape.field->dims());
-        to.field = glm::vec4(float(fieldColumn), float(shape.field->step() * shape.fieldScale),
-                             float(shape.fieldScale), 0);
+        const glm::ivec3& dims = shape.field->dims();
+        to.middle = glm::dvec4(shape.field->lowest() * shape.fieldScale, 0);
+        to.halfSize = glm::dvec4(shape.field->step() * shape.fieldScale, shape.fieldScale, 0, 0);
+        to.kind = {motion.mode, int(shape.kind), dims.x, dims.y};
+        to.field = {dims.z, fieldColumn, 0, 0};
     }
-    to.middle = glm::vec4(glm::vec3(middle), float(int(shape.kind)));
-    to.halfSize = glm::vec4(glm::vec3(halfSize), finite(boundingRadius(shape)));
+    to.ball = glm::vec4(glm::vec3(motion.to), float(finite(boundingRadius(shape))));
+    to.move = glm::vec4(glm::vec3(motion.to - motion.from),
+                        float(2 * glm::length(glm::dvec3(between.x, between.y, between.z))));
     return to;
 }
 

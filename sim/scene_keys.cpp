@@ -93,7 +93,7 @@ std::vector<SceneKey> generalKeys() {
                  "acceleration of gravity, y is up", Kind::quantity3),
         plain("", "organ", Kind::tables, kAny, nullptr,
               "the organs, one to eight; they move on their own and do not touch each other yet"),
-        plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most four"),
+        plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most seven"),
         plain("", "cut", Kind::tables, kAny, "", "the scripted cuts; they cut every organ that they meet"),
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
@@ -386,7 +386,7 @@ std::string sceneReference() {
     return out.str();
 }
 
-static_assert(SRS_MAX_TOOLS == 4, "the meaning of [[tool]] names the limit");
+static_assert(SRS_MAX_TOOLS == 7, "the meaning of [[tool]] names the limit");
 static_assert(SRS_MAX_MATERIALS == 16, "the meaning of [[organ.material]] names the limit");
 static_assert(SRS_CURVE_BREAKS == 8 && SRS_LIMIT_STIFFENING == 10.0,
               "the meanings of curve and strain_limit name the limits");

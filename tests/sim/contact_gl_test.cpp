@@ -161,27 +161,66 @@ void followsReference(const SolverSetup& setup, int steps) {
     });
 }
 
-} // namespace
-
-TEST_F(GlContact, ofEveryShapeFollowsTheReference) {
-    for (const sim::ShapeKind kind :
-         {sim::ShapeKind::sphere, sim::ShapeKind::capsule, sim::ShapeKind::box, sim::ShapeKind::hook,
-          sim::ShapeKind::halfSpace, sim::ShapeKind::mesh}) {
-        SCOPED_TRACE("shape " + std::to_string(int(kind)));
-        Case c;
-        c.press(shapeOf(kind), 1.5, 0);
-        followsReference(c.setup, 50);
+/// Step by step from the reference's own states. Where a shape has edges, which point of a triangle is the
+/// deepest and which triangle moves a node jumps as it slides, and runs that differ by a rounding part within
+/// tens of steps, the cpu solver's from the reference's as well: whole runs say nothing there.
+void takesTheSteps(const SolverSetup& setup, int steps) {
+    const auto reference = sim::makeReferenceSolver(setup);
+    std::vector<std::unique_ptr<sim::Solver>> solvers;
+    solvers.push_back(sim::makeFragmentSolver(setup).value());
+    solvers.push_back(sim::makeComputeSolver(setup).value());
+    std::vector<sim::ToolLoad> sums(3); // the reference's, then the solvers'
+    int apart = 0;
+    for (int step = 0; step < steps; ++step) {
+        LatticeState from = reference->state();
+        for (std::vector<glm::dvec3>* values : {&from.positions, &from.increments})
+            for (glm::dvec3& value : *values)
+                value = glm::dvec3(glm::vec3(value));
+        const auto take = [&](sim::Solver& solver, sim::ToolLoad& sum) {
+            solver.setState(from);
+            solver.advance(1);
+            const sim::ToolLoad load = solver.takeLoads()[0];
+            sum.impulse += load.impulse;
+            sum.angular += load.angular;
+        };
+        take(*reference, sums[0]);
+        const LatticeState expected = reference->state();
+        for (std::size_t i = 0; i < solvers.size(); ++i) {
+            take(*solvers[i], sums[i + 1]);
+            apart += largestDifference(solvers[i]->state(), expected) > 2e-5;
+        }
+    }
+    EXPECT_LE(apart, 2) << "of " << 2 * steps << " steps: rounding may choose otherwise once";
+    const double size = glm::length(sums[0].impulse);
+    EXPECT_GT(size, 0);
+    EXPECT_GT(largestDifference(reference->state(), sim::restState(*setup.lattice)), 0.2);
+    for (std::size_t i = 1; i < sums.size(); ++i) {
+        EXPECT_LT(glm::distance(sums[i].impulse, sums[0].impulse), 1e-3 * size) << i;
+        EXPECT_LT(glm::distance(sums[i].angular, sums[0].angular), 1e-3 * size * 5 * kSpacing) << i;
     }
 }
 
-TEST_F(GlContact, withFrictionFollowsTheReference) {
+} // namespace
+
+TEST_F(GlContact, ofEveryShapeTakesTheReferencesSteps) {
     for (const sim::ShapeKind kind :
-         {sim::ShapeKind::sphere, sim::ShapeKind::box, sim::ShapeKind::halfSpace}) {
-        SCOPED_TRACE("shape " + std::to_string(int(kind)));
-        Case c;
-        c.press(shapeOf(kind), 1.2, 0.4);
-        followsReference(c.setup, 50);
-    }
+         {sim::ShapeKind::capsule, sim::ShapeKind::box, sim::ShapeKind::hook, sim::ShapeKind::mesh})
+        for (const double friction : {0.0, 0.4}) {
+            SCOPED_TRACE("shape " + std::to_string(int(kind)));
+            Case c;
+            c.press(shapeOf(kind), 1.5, friction);
+            takesTheSteps(c.setup, 50);
+        }
+}
+
+TEST_F(GlContact, ofSmoothShapesFollowsTheReference) {
+    for (const sim::ShapeKind kind : {sim::ShapeKind::sphere, sim::ShapeKind::halfSpace})
+        for (const double friction : {0.0, 0.4}) {
+            SCOPED_TRACE("shape " + std::to_string(int(kind)));
+            Case c;
+            c.press(shapeOf(kind), 1.5, friction);
+            followsReference(c.setup, 50);
+        }
 }
 
 TEST_F(GlContact, ofAFallingBallOnBodiesFollowsTheReference) {

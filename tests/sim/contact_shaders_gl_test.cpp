@@ -30,16 +30,16 @@ void main() {
     if (i >= u_probes)
         return;
     int c = int(b_input[9 * i].w);
-    vec3 y0 = b_input[9 * i].xyz, y1 = b_input[9 * i + 1].xyz;
-    vec3 depths = b_input[9 * i + 8].xyz;
-    Corners from = Corners(b_input[9 * i + 2].xyz, b_input[9 * i + 3].xyz, b_input[9 * i + 4].xyz);
-    Corners to = Corners(b_input[9 * i + 5].xyz, b_input[9 * i + 6].xyz, b_input[9 * i + 7].xyz);
-    b_output[5 * i] = sampleShape(c, y0);
-    b_output[5 * i + 1] = vec4(pointContact(c, y0, y1, depths.x, sweepSamples(distance(y0, y1), thinOf(c))), 0.0);
-    b_output[5 * i + 2] = deepestPoint(c, to, depths);
-    vec3 weights;
-    b_output[5 * i + 3] = vec4(triangleContact(c, from, to, depths, weights), 0.0);
-    b_output[5 * i + 4] = vec4(weights, 0.0);
+    dvec3 y0 = dvec3(b_input[9 * i].xyz), y1 = dvec3(b_input[9 * i + 1].xyz);
+    dvec3 depths = dvec3(b_input[9 * i + 8].xyz);
+    Corners from = Corners(dvec3(b_input[9 * i + 2].xyz), dvec3(b_input[9 * i + 3].xyz), dvec3(b_input[9 * i + 4].xyz));
+    Corners to = Corners(dvec3(b_input[9 * i + 5].xyz), dvec3(b_input[9 * i + 6].xyz), dvec3(b_input[9 * i + 7].xyz));
+    b_output[5 * i] = vec4(sampleShape(c, y0));
+    b_output[5 * i + 1] = vec4(vec3(pointContact(c, y0, y1, depths.x, sweepSamples(distance(y0, y1), thinOf(c)))), 0.0);
+    b_output[5 * i + 2] = vec4(deepestPoint(c, to, depths));
+    dvec3 weights;
+    b_output[5 * i + 3] = vec4(vec3(triangleContact(c, from, to, depths, weights)), 0.0);
+    b_output[5 * i + 4] = vec4(vec3(weights), 0.0);
 }
 )";
 
@@ -154,15 +154,15 @@ TEST_F(GlContactShaders, giveTheCpusDistancesNormalsAndContacts) {
     }
     const std::vector<Answer> answers = ask(probes);
     std::array<int, 6> touches{}, apart{};
+    int other = 0; // where rounding chose another start or step
     for (std::size_t i = 0; i < probes.size(); ++i) {
         const Probe& probe = probes[i];
         const Answer& answer = answers[i];
         const sim::RigidShape& shape = motions[std::size_t(probe.collider)].shape;
         SCOPED_TRACE(std::to_string(i) + " of shape " + std::to_string(probe.collider));
         const sim::ShapeSample sample = sim::sampleShape(shape, probe.y0);
-        EXPECT_NEAR(answer.sample.w, sample.distance, 4e-6);
-        EXPECT_LT(glm::distance(glm::dvec3(answer.sample), sample.normal),
-                  1e-3 / (0.1 + std::abs(sample.distance)));
+        EXPECT_NEAR(answer.sample.w, sample.distance, 1e-6);
+        EXPECT_LT(glm::distance(glm::dvec3(answer.sample), sample.normal), 1e-6);
         const sim::ContactShape collider{shape, sim::thinnestHalfWidth(shape), 0.3};
         const glm::dvec3 point = sim::pointContact(
             collider, probe.y0, probe.y1, probe.depths.x,
@@ -170,13 +170,14 @@ TEST_F(GlContactShaders, giveTheCpusDistancesNormalsAndContacts) {
         const sim::Corners from{probe.from[0], probe.from[1], probe.from[2]},
             to{probe.to[0], probe.to[1], probe.to[2]};
         const sim::TriangleGap deepest = sim::deepestPoint(shape, to, probe.depths);
-        EXPECT_NEAR(answer.deepest.w, deepest.gap, 2e-5);
+        other += std::abs(answer.deepest.w - deepest.gap) > 1e-6;
         const sim::TriangleContact contact = sim::triangleContact(collider, from, to, probe.depths);
         const double worst = std::max(glm::distance(glm::dvec3(answer.point), point),
                                       glm::distance(glm::dvec3(answer.triangle), contact.move));
         touches[std::size_t(probe.collider)] += point != glm::dvec3(0) || contact.move != glm::dvec3(0);
         apart[std::size_t(probe.collider)] += worst > 1e-5;
     }
+    EXPECT_LE(other, 12) << "of 12,000";
     for (std::size_t kind = 0; kind < 6; ++kind) {
         EXPECT_GT(touches[kind], 100) << kind;
         EXPECT_LE(apart[kind], touches[kind] / 100) << kind;
