@@ -2,6 +2,7 @@
 #include "sim/implicit_levels.h"
 
 #include "base/check.h"
+#include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <bit>
@@ -135,7 +136,7 @@ std::vector<ImplicitLevel> implicitLevels(const Lattice& lattice) {
     levels.push_back(levelOf(lattice.nodes, places));
     do
         levels.push_back(coarserLevel(levels.back(), places));
-    while (levels.back().nodes.size() > kCoarsestNodes);
+    while (levels.back().nodes.size() > SRS_IMPLICIT_COARSEST);
     return levels;
 }
 

@@ -35,9 +35,7 @@ double finerWeight(std::size_t place);
 /// octants.
 glm::dvec3 octantGradient(int corner, int octant);
 
-inline constexpr std::size_t kCoarsestNodes = 32; // at most, on the last level
-
-/// At least two levels.
+/// At least two levels; the last has at most SRS_IMPLICIT_COARSEST nodes.
 std::vector<ImplicitLevel> implicitLevels(const Lattice& lattice);
 
 } // namespace serosa::sim

@@ -13,14 +13,8 @@ namespace serosa::sim {
 
 namespace {
 
-class HasEffort {
-public:
-    virtual ~HasEffort() = default;
-    virtual const ImplicitEffort& effort() const = 0;
-};
-
 template <class Real>
-class ImplicitSolver final : public Solver, public HasEffort {
+class ImplicitSolver final : public Solver, public HasImplicitEffort {
     using Vector = typename ImplicitSystem<Real>::Vector;
     using Vectors = typename ImplicitSystem<Real>::Vectors;
 
@@ -37,7 +31,7 @@ public:
 
     const char* name() const override { return name_; }
     const SolverSetup& setup() const override { return setup_; }
-    const ImplicitEffort& effort() const override { return stepper_.effort(); }
+    ImplicitEffort effort() const override { return stepper_.effort(); }
 
     void advance(int count) override {
         arena_.execute([this, count] {
@@ -170,9 +164,9 @@ std::unique_ptr<Solver> makeImplicitCpuSolver(const SolverSetup& setup, int thre
     return std::make_unique<ImplicitSolver<float>>(setup, "cpu", true, threads, limits);
 }
 
-const ImplicitEffort* implicitEffort(const Solver& solver) {
-    const auto* effort = dynamic_cast<const HasEffort*>(&solver);
-    return effort ? &effort->effort() : nullptr;
+std::optional<ImplicitEffort> implicitEffort(const Solver& solver) {
+    const auto* effort = dynamic_cast<const HasImplicitEffort*>(&solver);
+    return effort ? std::optional(effort->effort()) : std::nullopt;
 }
 
 } // namespace serosa::sim

