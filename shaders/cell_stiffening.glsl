@@ -37,16 +37,49 @@ float springEnergy(uint material, uint bits[8], vec3 p[8]) {
 
 bool hasCurve(uint material) { return u_breakGains[int(material) * SRS_CURVE_BREAKS] != 0.0; }
 
-/// Stress of the material's curve over that of the springs alone. \param energy of the cell over its fill, in units of k h^2
-float stiffening(uint material, float energy) {
+/// The tension strain at which springs alone store that. \param energy of the cell over its fill, in units of k h^2
+float tensionStrain(uint material, float energy) {
     energy *= 2.0 / u_youngs[material];
-    float strain = sqrt(energy), bend = u_bends[material], factor = 1.0;
+    float strain = sqrt(energy), bend = u_bends[material];
     for (int i = 0; i < SRS_STRAIN_ITERATIONS; ++i) // MaterialShares::tensionStrain
         strain -= (strain * strain * (1.0 + bend * strain) - energy) / max(strain * (2.0 + 3.0 * bend * strain), 1e-30);
+    return strain;
+}
+
+/// Stress of the material's curve over that of the springs alone.
+float stiffeningAt(uint material, float strain) {
+    float factor = 1.0;
     for (int i = 0; i < SRS_CURVE_BREAKS; ++i) {
         int at = int(material) * SRS_CURVE_BREAKS + i;
         if (strain > u_breakStrains[at])
             factor += u_breakGains[at] * (1.0 - u_breakStrains[at] / max(strain, 1e-20));
     }
-    return factor / (1.0 + 1.5 * bend * strain);
+    return factor / (1.0 + 1.5 * u_bends[material] * strain);
+}
+
+/// Slope of the curve over its first one.
+float tangentAt(uint material, float strain) {
+    float tangent = 1.0;
+    for (int i = 0; i < SRS_CURVE_BREAKS; ++i) {
+        int at = int(material) * SRS_CURVE_BREAKS + i;
+        if (strain > u_breakStrains[at])
+            tangent += u_breakGains[at];
+    }
+    return tangent;
+}
+
+/// \param energy of the cell over its fill, in units of k h^2
+float stiffening(uint material, float energy) { return stiffeningAt(material, tensionStrain(material, energy)); }
+
+/// What a cell stores in all, over its fill, in units of k h^2 (Stiffening::energy). \param energy as above
+float stiffenedEnergy(uint material, float energy) {
+    if (!hasCurve(material))
+        return energy;
+    float strain = tensionStrain(material, energy), psi = 0.5 * strain * strain;
+    for (int i = 0; i < SRS_CURVE_BREAKS; ++i) {
+        int at = int(material) * SRS_CURVE_BREAKS + i;
+        float beyond = max(0.0, strain - u_breakStrains[at]);
+        psi += 0.5 * u_breakGains[at] * beyond * beyond;
+    }
+    return u_youngs[material] * psi;
 }

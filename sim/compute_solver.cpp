@@ -1,6 +1,7 @@
 // The lattice stepped by compute passes (shaders/solver_step.comp): the fragment solver's kernel, textures
 // and order of passes, with image stores in place of render targets.
 #include "shaders/shared_constants.h"
+#include "sim/implicit_solver.h"
 #include "sim/solver_program.h"
 #include "sim/texture_solver.h"
 
@@ -72,6 +73,8 @@ private:
 Result<std::unique_ptr<Solver>> makeComputeSolver(const SolverSetup& setup, const ComputeOptions& options) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    if (setup.method == StepMethod::implicit)
+        return makeImplicitTextureSolver(setup, "compute", options.layout);
     return ComputeSolver::create(setup, options);
 }
 

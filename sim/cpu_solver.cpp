@@ -9,6 +9,7 @@
 #include "sim/cpu_cells.h"
 #include "sim/cpu_kernel.h"
 #include "sim/cpu_layout.h"
+#include "sim/implicit_solver.h"
 #include "sim/tissue_field.h"
 
 #include <tbb/parallel_for.h>
@@ -230,6 +231,8 @@ private:
 std::unique_ptr<Solver> makeCpuSolver(const SolverSetup& setup, const CpuOptions& options) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    if (setup.method == StepMethod::implicit)
+        return makeImplicitCpuSolver(setup, options.threads);
     return std::make_unique<CpuSolver>(setup, options);
 }
 

@@ -1,6 +1,7 @@
 // MS05 3.1: the lattice is stepped in a fragment shader (shaders/solver_step.frag) over 2D state textures,
 // several steps a frame, ping-pong, with no readback.
 #include "shaders/shared_constants.h"
+#include "sim/implicit_solver.h"
 #include "sim/solver_program.h"
 #include "sim/texture_solver.h"
 
@@ -70,6 +71,8 @@ private:
 Result<std::unique_ptr<Solver>> makeFragmentSolver(const SolverSetup& setup, const FragmentOptions& options) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    if (setup.method == StepMethod::implicit)
+        return makeImplicitTextureSolver(setup, "fragment", options.layout);
     return FragmentSolver::create(setup, options);
 }
 

@@ -26,6 +26,10 @@ std::string LatticeState::hash() const {
     XXH3_128bits_update(hasher, heldBy.data(), heldBy.size() * sizeof heldBy[0]);
     if (!connections.empty())
         XXH3_128bits_update(hasher, connections.data(), connections.size() * sizeof connections[0]);
+    for (const glm::dvec4& v : earlier) {
+        const glm::vec4 rounded(v);
+        XXH3_128bits_update(hasher, &rounded, sizeof rounded);
+    }
     const XXH128_hash_t digest = XXH3_128bits_digest(hasher);
     XXH3_freeState(hasher);
     char text[40];

@@ -2,6 +2,7 @@
 // stands in sim/solver.h; the fragment solver's twin is shaders/solver_kernel.glsl.
 #include "shaders/shared_constants.h"
 #include "sim/contact_stage.h"
+#include "sim/implicit_solver.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
 #include "sim/stiffening.h"
@@ -156,6 +157,8 @@ private:
 std::unique_ptr<Solver> makeReferenceSolver(const SolverSetup& setup) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
     SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
+    if (setup.method == StepMethod::implicit)
+        return makeImplicitReferenceSolver(setup);
     return std::make_unique<ReferenceSolver>(setup);
 }
 

@@ -81,6 +81,11 @@ std::size_t StateTextures::linearTexel(std::size_t node) const {
            layout_.texelOfNode[node].x;
 }
 
+void StateTextures::keepEarlier() {
+    earlier_ = gpu::Texture2D("earlier increments", GL_RGBA32F, layout_.width, layout_.height);
+    earlier_.clear(glm::vec4(0));
+}
+
 void StateTextures::upload(const LatticeState& state) {
     SEROSA_CHECK(state.positions.size() == layout_.texelOfNode.size(), "a state of this lattice");
     SEROSA_CHECK(state.connections.empty() || state.connections.size() == state.positions.size(),
@@ -100,6 +105,12 @@ void StateTextures::upload(const LatticeState& state) {
     positions_[current_].upload(positions.data());
     increments_[current_].upload(increments.data());
     nodeInfo_[currentInfo_].upload(info.data());
+    if (!earlier_)
+        return;
+    std::vector<glm::vec4> earlier(layout_.texels(), glm::vec4(0));
+    for (std::size_t node = 0; node < state.earlier.size(); ++node)
+        earlier[linearTexel(node)] = glm::vec4(state.earlier[node]);
+    earlier_.upload(earlier.data());
 }
 
 LatticeState StateTextures::download(std::int64_t step) const {
@@ -122,6 +133,11 @@ LatticeState StateTextures::download(std::int64_t step) const {
     }
     if (!cut)
         state.connections.clear();
+    if (earlier_) {
+        earlier_.download(positions.data(), positions.size() * sizeof positions[0]);
+        for (std::size_t node = 0; node < layout_.texelOfNode.size(); ++node)
+            state.earlier.emplace_back(positions[linearTexel(node)]);
+    }
     return state;
 }
 
@@ -135,7 +151,8 @@ std::vector<std::uint32_t> StateTextures::downloadConnections() const {
 }
 
 std::size_t StateTextures::bytes() const {
-    const std::size_t perTexel = 2 * (16 + 16 + 16) + (layout_.kind == SRS_LAYOUT_ROWS ? 32 : 0);
+    const std::size_t perTexel =
+        2 * (16 + 16 + 16) + (layout_.kind == SRS_LAYOUT_ROWS ? 32 : 0) + (earlier_ ? 16 : 0);
     return layout_.texels() * perTexel;
 }
 

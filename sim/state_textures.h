@@ -24,6 +24,8 @@ public:
     const gpu::Texture2D& increments() const { return increments_[current_]; }
     const gpu::Texture2D& nodeInfo() const { return nodeInfo_[currentInfo_]; }
 
+    /// From now on a state's earlier increments (LatticeState::earlier) are kept, too: none yet.
+    void keepEarlier();
     /// Replaces positions, increments, normals, held flags and connections.
     void upload(const LatticeState& state);
     /// Reads all back (stalls).
@@ -40,12 +42,14 @@ private:
     friend class TextureSolver;
     friend class FragmentSolver;
     friend class ComputeSolver;
+    friend class ImplicitPasses;
     StateTextures() = default;
     std::size_t linearTexel(std::size_t node) const;
 
     TextureLayout layout_;
     std::vector<std::array<std::uint32_t, 4>> info_; // CPU copy of node info without held flags, one a texel
     gpu::Texture2D positions_[2], increments_[2], nodeInfo_[2], rowOffsets_[2];
+    gpu::Texture2D earlier_; // RGBA32F: xyz increments before the last, w 1 where there is one; or empty
     int current_ = 0, currentInfo_ = 0;
 };
 

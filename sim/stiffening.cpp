@@ -5,6 +5,7 @@
 #include "sim/pieces.h"
 #include "sim/volume_term.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace serosa::sim {
@@ -54,17 +55,37 @@ double Stiffening::linearEnergy(const Cell& cell, const std::vector<glm::dvec3>&
     return cell.fill * energy;
 }
 
+double Stiffening::tensionStrain(const Cell& cell, const std::vector<glm::dvec3>& positions) const {
+    const MaterialShares& material = materials_[cell.material];
+    return material.tensionStrain(2 * linearEnergy(cell, positions) / (cell.fill * material.young));
+}
+
 std::vector<double> Stiffening::factors(const std::vector<glm::dvec3>& positions) const {
     std::vector<double> factors;
     factors.reserve(cells_.size());
     for (const Cell& cell : cells_) {
         const MaterialShares& material = materials_[cell.material];
-        factors.push_back(material.breaks.empty()
-                              ? 1.0
-                              : material.stiffening(material.tensionStrain(2 * linearEnergy(cell, positions) /
-                                                                           (cell.fill * material.young))));
+        factors.push_back(material.breaks.empty() ? 1.0
+                                                  : material.stiffening(tensionStrain(cell, positions)));
     }
     return factors;
+}
+
+std::vector<double> Stiffening::tangents(const std::vector<glm::dvec3>& positions) const {
+    std::vector<double> tangents;
+    tangents.reserve(cells_.size());
+    for (const Cell& cell : cells_) {
+        const MaterialShares& material = materials_[cell.material];
+        double tangent = 1;
+        if (!material.breaks.empty()) {
+            const double strain = tensionStrain(cell, positions);
+            for (const CurveBreak& turn : material.breaks)
+                tangent += strain > turn.strain ? turn.gain : 0;
+            tangent = std::max(tangent, material.stiffening(strain));
+        }
+        tangents.push_back(tangent);
+    }
+    return tangents;
 }
 
 double Stiffening::energy(const std::vector<glm::dvec3>& positions) const {

@@ -41,6 +41,9 @@ public:
     bool empty() const { return cells_.empty(); }
     /// One a cell, in the order of lattice.cells: by how much its forces grow. Empty where empty().
     std::vector<double> factors(const std::vector<glm::dvec3>& positions) const;
+    /// The same of the steepest tangent, not below factors(): with them the cells' stiffness as it would be
+    /// without curves is a bound of theirs. Empty where empty().
+    std::vector<double> tangents(const std::vector<glm::dvec3>& positions) const;
     /// Elastic energy of all cells, in units of k h^2 of material 0 (recovery not counted). Only where not
     /// empty().
     double energy(const std::vector<glm::dvec3>& positions) const;
@@ -53,6 +56,7 @@ private:
         bool whole = false;
         std::uint8_t material = 0;
     };
+    double tensionStrain(const Cell& cell, const std::vector<glm::dvec3>& positions) const;
     /// U, in units of k h^2.
     double linearEnergy(const Cell& cell, const std::vector<glm::dvec3>& positions) const;
 

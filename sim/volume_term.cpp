@@ -5,40 +5,11 @@
 #include "sim/cell_volumes.h"
 #include "sim/pieces.h"
 #include "sim/solver.h"
+#include "sim/volume_law.h"
 
 #include <algorithm>
 
 namespace serosa::sim {
-
-namespace {
-
-glm::dmat3 cofactors(const glm::dmat3& f) {
-    return {glm::cross(f[1], f[2]), glm::cross(f[2], f[0]), glm::cross(f[0], f[1])};
-}
-
-double square(const glm::dmat3& m) {
-    return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
-}
-
-double softening(const glm::dmat3& cofactor) {
-    const double share = std::min(1.0, SRS_VOLUME_STIFFENING / std::max(square(cofactor), 1e-12));
-    return share * share;
-}
-
-/// dW/dF of sim/volume_term.h, k/h.
-glm::dmat3 volumeStress(const glm::dmat3& gradient, double bulk, double recovery) {
-    const glm::dmat3 cofactor = cofactors(gradient);
-    const double change = glm::dot(gradient[0], cofactor[0]) - 1,
-                 collapse = std::max(0.0, SRS_COLLAPSED - 1 - change);
-    const double q = softening(cofactor), size = square(cofactor);
-    glm::dmat3 stress = q * (bulk * change - recovery * collapse) * cofactor;
-    if (size > SRS_VOLUME_STIFFENING) // dq/dF = -4 q / size (|F|^2 F - F F^T F)
-        stress -= 2 * q / size * (bulk * change * change + recovery * collapse * collapse) *
-                  (square(gradient) * gradient - gradient * glm::transpose(gradient) * gradient);
-    return stress;
-}
-
-} // namespace
 
 VolumeTerm::VolumeTerm(const Lattice& lattice, const Tissue& tissue,
                        const std::vector<std::uint32_t>& connections) {
@@ -98,7 +69,8 @@ double volumeEnergy(const glm::dmat3& gradient, double bulk, double recovery) {
     const glm::dmat3 cofactor = cofactors(gradient);
     const double volume = glm::dot(gradient[0], cofactor[0]);
     const double collapse = std::max(0.0, SRS_COLLAPSED - volume);
-    return 0.5 * softening(cofactor) * (bulk * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
+    return 0.5 * volumeSoftening(frobenius2(cofactor)) *
+           (bulk * (volume - 1) * (volume - 1) + recovery * collapse * collapse);
 }
 
 } // namespace serosa::sim
