@@ -38,7 +38,7 @@ void main() {
         for (int k = 0; k < 3; ++k)
             own = max(own, distance(dvec3(end[k]), carried(c, dvec3(x[k]))));
         dvec3 depths = depthsOf(triangle);
-        double depth = max(max(depths.x, depths.y), max(depths.z, -0.5lf * thinOf(c)));
+        double depth = max(max(depths.x, depths.y), max(depths.z, double(SRS_WALL)));
         if (sampleShape(c, ownAtEnd(c, dvec3(end[0]))).w <= edge + own + depth + kNearBy)
             mask |= 1u << c;
     }

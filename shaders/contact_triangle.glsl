@@ -95,17 +95,28 @@ dvec4 deepestPoint(int c, Corners p, dvec3 depth) {
     return best;
 }
 
+/// Does the collider lie on the inner side of the triangle, in front of the point with `weights`?
+bool meetsFromInside(int c, Corners p, dvec3 weights) {
+    dvec3 outward = cross(p.b - p.a, p.c - p.a);
+    return dot(sampleShape(c, weigh(p, weights)).xyz, outward) > 0.5lf * length(outward);
+}
+
 /// The move of the triangle's point with `weights`; zero: no contact.
-dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 depth, out dvec3 weights) {
+dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 surfaceDepth, out dvec3 weights) {
+    dvec3 depth = surfaceDepth;
     double path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
     int samples = sweepSamples(path, thinOf(c));
-    dvec4 deepest = dvec4(0.0);
+    dvec4 deepest = deepestPoint(c, y1, depth);
+    bool inside = meetsFromInside(c, y0, deepest.xyz);
+    if (inside)
+        depth = max(depth, dvec3(SRS_WALL));
     double s = 1.0; // the end first, then from the start on
     for (int look = 0, k = 0; look <= SRS_SWEEP_SAMPLES; ++look) {
         Corners there = y1;
         if (look > 0)
             there = Corners(y0.a + s * (y1.a - y0.a), y0.b + s * (y1.b - y0.b), y0.c + s * (y1.c - y0.c));
-        deepest = deepestPoint(c, there, depth);
+        if (look > 0 || inside)
+            deepest = deepestPoint(c, there, depth);
         if (deepest.w < 0.0 || samples == 1)
             break;
         if (look > 0)

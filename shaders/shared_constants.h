@@ -40,11 +40,12 @@
 #define SRS_TOOL_PUSH 1
 #define SRS_TOOL_GRASP 2
 
-#define SRS_EJECTION 0.01         // spacings a step: how fast a push moves out what is inside of it already
-#define SRS_SWEEP_SAMPLES 64      // most, of a step's motion against a collider
-#define SRS_SWEEP_BISECTIONS 12   // of the moment of touch between two samples
-#define SRS_CONTACT_ITERATIONS 2  // rounds over the boundary triangles a step
+#define SRS_EJECTION 0.01          // spacings a step: how fast a push moves out what is inside of it already
+#define SRS_SWEEP_SAMPLES 64       // most, of a step's motion against a collider
+#define SRS_SWEEP_BISECTIONS 12    // of the moment of touch between two samples
+#define SRS_CONTACT_ITERATIONS 2   // rounds over the boundary triangles a step
 #define SRS_TRIANGLE_ITERATIONS 12 // for the deepest point of a triangle
+#define SRS_WALL 0.4       // spacings that a surface which a tool meets from inside is kept off it, at least
 #define SRS_GRIP_SLACK 0.1 // spacings outside of its tool beyond which a held node that slips is let go
 
 // Rigid shapes: ShapeKind (sim/rigid_shape.h)
@@ -87,22 +88,22 @@
 #define SRS_BASIS_CORRECTED 1u
 
 // The implicit step (sim/implicit_system.h, shaders/implicit_common.glsl)
-#define SRS_IMPLICIT_GROUP 128        // invocations of a work group
-#define SRS_IMPLICIT_COARSEST 28      // nodes of the last level, at most: its matrix fits shared memory
-#define SRS_IMPLICIT_TAIL 1200        // nodes of the levels that one work group takes care of, at most
-#define SRS_IMPLICIT_REGULAR 1e-6     // added to diagonals before they are inverted, as a share
-#define SRS_IMPLICIT_ARMIJO 1e-4      // of the fall that the gradient promises
+#define SRS_IMPLICIT_GROUP 128    // invocations of a work group
+#define SRS_IMPLICIT_COARSEST 28  // nodes of the last level, at most: its matrix fits shared memory
+#define SRS_IMPLICIT_TAIL 1200    // nodes of the levels that one work group takes care of, at most
+#define SRS_IMPLICIT_REGULAR 1e-6 // added to diagonals before they are inverted, as a share
+#define SRS_IMPLICIT_ARMIJO 1e-4  // of the fall that the gradient promises
 // Arrays of one vec4 a node in b_vector
-#define SRS_VEC_X 0  // x at the step's start; w: mass
-#define SRS_VEC_V 1  // v; w: c, 0 for a held node
-#define SRS_VEC_U 2  // u'
-#define SRS_VEC_T 3  // u' where the search begins; where a held node must go
-#define SRS_VEC_G 4  // gradient
-#define SRS_VEC_S 5  // Newton's step so far
-#define SRS_VEC_R 6  // residual
-#define SRS_VEC_P 7  // direction of conjugate gradients
-#define SRS_VEC_Q 8  // matrix times direction
-#define SRS_VEC_Z 9  // preconditioned residual
+#define SRS_VEC_X 0   // x at the step's start; w: mass
+#define SRS_VEC_V 1   // v; w: c, 0 for a held node
+#define SRS_VEC_U 2   // u'
+#define SRS_VEC_T 3   // u' where the search begins; where a held node must go
+#define SRS_VEC_G 4   // gradient
+#define SRS_VEC_S 5   // Newton's step so far
+#define SRS_VEC_R 6   // residual
+#define SRS_VEC_P 7   // direction of conjugate gradients
+#define SRS_VEC_Q 8   // matrix times direction
+#define SRS_VEC_Z 9   // preconditioned residual
 #define SRS_VEC_DA 10 // inverse diagonal block: xx, yy, zz
 #define SRS_VEC_DB 11 // xy, yz, zx
 #define SRS_VECS 12
@@ -120,12 +121,13 @@
 // A level's header in b_table, SRS_LEVEL_INTS each
 #define SRS_LEVEL_NODES 0
 #define SRS_LEVEL_CELLS 1
-#define SRS_LEVEL_AROUND 2   // place in b_table: the cell in each octant around a node, 8 times nodes
-#define SRS_LEVEL_CORNERS 3  // the corners of a cell, 8 times cells
-#define SRS_LEVEL_COARSER 4  // 8 times nodes
-#define SRS_LEVEL_FINER 5    // 27 times nodes
-#define SRS_LEVEL_PARTS 6    // the cells in the octants of a cell, 8 times cells
-#define SRS_LEVEL_VECTORS 7  // place in b_level: residuals, corrections, inverse blocks (2), anchored blocks (2)
+#define SRS_LEVEL_AROUND 2  // place in b_table: the cell in each octant around a node, 8 times nodes
+#define SRS_LEVEL_CORNERS 3 // the corners of a cell, 8 times cells
+#define SRS_LEVEL_COARSER 4 // 8 times nodes
+#define SRS_LEVEL_FINER 5   // 27 times nodes
+#define SRS_LEVEL_PARTS 6   // the cells in the octants of a cell, 8 times cells
+#define SRS_LEVEL_VECTORS                                                                                    \
+    7 // place in b_level: residuals, corrections, inverse blocks (2), anchored blocks (2)
 #define SRS_LEVEL_QUADRATURE 8 // place in b_quadrature: SRS_QUADRATURE a cell
 #define SRS_LEVEL_BLOCKS 9     // place in b_quadrature: two vec4 a corner of a cell
 #define SRS_LEVEL_INTS 10

@@ -264,8 +264,7 @@ std::vector<ContactStage::Candidate> ContactStage::candidates(const std::vector<
                         path, glm::distance(motion.ownAtStart(start_[t[k]]), motion.ownAtEnd(end_[t[k]])));
                 const double edge = std::max(glm::distance(end_[t.x], end_[t.y]),
                                              glm::distance(end_[t.x], end_[t.z])),
-                             depth =
-                                 std::max({depth_[t.x], depth_[t.y], depth_[t.z], -0.5 * thin_[collider]});
+                             depth = std::max({depth_[t.x], depth_[t.y], depth_[t.z], SRS_WALL});
                 if (shapeDistance(motion.shape, motion.ownAtEnd(end_[t.x])) <= edge + path + depth + kNearBy)
                     found[i].push_back({triangle, collider});
             }

@@ -29,6 +29,12 @@ glm::dvec3 depthGradient(const Corners& p, const glm::dvec3& depth) {
     return ((a * ff - b * ef) * e + (b * ee - a * ef) * f) / det;
 }
 
+/// Does the shape lie on the inner side of the triangle, in front of the point with `weights`?
+bool meetsFromInside(const RigidShape& shape, const Corners& p, const glm::dvec3& weights) {
+    const glm::dvec3 outward = glm::cross(p[1] - p[0], p[2] - p[0]);
+    return glm::dot(sampleShape(shape, weigh(p, weights)).normal, outward) > 0.5 * glm::length(outward);
+}
+
 double longestEdge(const Corners& p) {
     return std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
 }
@@ -76,12 +82,17 @@ TriangleGap deepestPoint(const RigidShape& shape, const Corners& p, const glm::d
 }
 
 TriangleContact triangleContact(const ContactShape& collider, const Corners& y0, const Corners& y1,
-                                const glm::dvec3& depth) {
+                                const glm::dvec3& surfaceDepth) {
     double path = 0;
     for (std::size_t i = 0; i < 3; ++i)
         path = std::max(path, glm::distance(y0[i], y1[i]));
     const int samples = sweepSamples(path, collider.thin);
+    glm::dvec3 depth = surfaceDepth;
     TriangleGap deepest = deepestPoint(collider.shape, y1, depth);
+    if (meetsFromInside(collider.shape, y0, deepest.weights)) {
+        depth = glm::max(depth, glm::dvec3(SRS_WALL));
+        deepest = deepestPoint(collider.shape, y1, depth);
+    }
     for (int k = 0; k < samples && samples > 1 && deepest.gap >= 0;) {
         const double s = double(k) / samples;
         deepest = deepestPoint(
