@@ -46,6 +46,8 @@ protected:
     void setStepInputs(gpu::Program& program, bool useTexelFetch);
     /// Takes `count` steps: calls takeStep, and lets contact follow.
     void takeSteps(int count);
+    /// One step was taken in place, without takeSteps().
+    void tookStepInPlace() { ++step_; }
     /// The half of the state that the step writes.
     int nextHalf() const { return 1 - textures_.current_; }
 
