@@ -9,6 +9,6 @@ struct ContactTriangle {
 };
 layout(std430) readonly restrict buffer b_triangles { ContactTriangle b_triangle[]; };
 
-dvec3 depthsOf(ContactTriangle triangle) {
-    return dvec3((uvec3(triangle.depths) >> uvec3(0, 8, 16)) & 255u) * kDepthStep - 2.0;
+real3 depthsOf(ContactTriangle triangle) {
+    return real3((uvec3(triangle.depths) >> uvec3(0, 8, 16)) & 255u) * kDepthStep - 2.0;
 }

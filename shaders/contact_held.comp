@@ -1,7 +1,7 @@
 // Held nodes go with their tools, turns included, by no more than the grip can give; those that slip out are let go, in
 // place. Twin of ContactStage::moveHeld.
 #version 450 core
-layout(local_size_x = SRS_GROUP_X, local_size_y = SRS_GROUP_Y) in;
+layout(local_size_x = 64) in;
 #include "shape_distance.glsl"
 #include "contact_loads.glsl"
 #include "contact_nodes.glsl"
@@ -12,26 +12,27 @@ layout(rgba32f) uniform readonly restrict image2D i_start;
 layout(rgba32f) uniform restrict image2D i_positions;
 layout(rgba32f) uniform restrict image2D i_increments;
 
-const float kEndlessGrip = 1e29; // contact_pass.cpp
+const float kEndlessGrip = 1e29; // sim/contact_colliders.cpp
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (texel == ivec2(0))
-        for (int i = 0; i < 8; ++i)
-            b_heldMass[(u_now + 2) % 3 * 8 + i] = 0u;
-    if (any(greaterThanEqual(texel, imageSize(i_nodeInfo))))
+    uint item = gl_GlobalInvocationID.x;
+    if (item < 8u)
+        b_heldMass[(u_now + 2) % 3 * 8 + int(item)] = 0u;
+    if (item >= b_heldCount)
         return;
+    uint number = b_heldNode[item];
+    ivec2 texel = texelAt(number);
     uvec4 info = imageLoad(i_nodeInfo, texel);
     uint holder = (info.x >> SRS_HELD_SHIFT) & SRS_HELD_MASK;
-    if (holder == 0u || holder > uint(SRS_TOOLS) || (info.x & SRS_FLAG_ACTIVE) == 0u)
+    if (holder == 0u || holder > uint(SRS_TOOLS)) // it slipped out before
         return;
     int c = int(holder) - 1;
-    float mass = b_node[numberOf(texel)].mass;
+    float mass = b_node[number].mass;
     if (modeOf(c) == SRS_TOOL_GRASP) {
         vec3 x = imageLoad(i_start, texel).xyz;
         vec4 free = imageLoad(i_positions, texel);
-        double grip = b_collider[c].to.w;
-        vec3 by = vec3(carried(c, dvec3(x)) - dvec3(free.xyz));
+        real grip = b_collider[c].to.w;
+        vec3 by = vec3(carried(c, real3(x)) - real3(free.xyz));
         float far = length(by), most = float(grip / max(heldMass(holder), 1e-9));
         if (far > most)
             by *= most / far;
@@ -39,7 +40,7 @@ void main() {
         imageStore(i_positions, texel, vec4(end, free.w));
         imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(by, 0.0));
         addLoad(c, mass, x, by);
-        if (grip < kEndlessGrip && sampleShape(c, ownAtEnd(c, dvec3(end))).w > SRS_GRIP_SLACK) {
+        if (grip < kEndlessGrip && sampleShape(c, ownAtEnd(c, real3(end))).w > SRS_GRIP_SLACK) {
             info.x &= ~(SRS_HELD_MASK << SRS_HELD_SHIFT);
             imageStore(i_nodeInfo, texel, info);
             return;

@@ -21,7 +21,7 @@ void addFixedPoint(uint slot, float value) {
 
 /// \param x the node at the step's start \param by what moved it
 void addLoad(int collider, float mass, vec3 x, vec3 by) {
-    vec3 impulse = mass * by, moment = cross(x - b_collider[collider].ball.xyz, impulse);
+    vec3 impulse = mass * by, moment = cross(x - vec3(b_collider[collider].to.xyz), impulse);
     uint stripe = (gl_WorkGroupID.x + 3u * gl_WorkGroupID.y) % uint(SRS_LOAD_STRIPES);
     uint slot = (stripe * uint(SRS_COLLIDERS) + uint(collider)) * 12u;
     for (uint i = 0u; i < 3u; ++i) {

@@ -13,12 +13,15 @@ layout(rgba32f) uniform restrict image2D i_increments;
 layout(std430) readonly restrict buffer b_corners { uint b_corner[]; }; // triangle * 3 + corner, node by node
 layout(std430) readonly restrict buffer b_asks { uvec4 b_ask[]; };
 layout(std430) readonly restrict buffer b_moverList { uint b_mover[]; };
+layout(std430) writeonly restrict buffer b_nearList { uvec2 b_near[]; };
+layout(std430) restrict buffer b_listed { uint b_listedIn[]; };
 uniform int u_round;
 uniform uint u_stamp;
+uniform uint u_step;
 
 void main() {
     uint item = gl_GlobalInvocationID.x;
-    if (item >= b_movers[u_round].count)
+    if (item >= LIST(SRS_LIST_MOVERS + u_round).count)
         return;
     uint number = b_mover[item];
     ContactNode node = b_node[number];
@@ -37,5 +40,7 @@ void main() {
     ivec2 texel = texelAt(number);
     imageStore(i_positions, texel, imageLoad(i_positions, texel) + vec4(move, 0.0));
     imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(move, 0.0));
+    if (atomicExchange(b_listedIn[number], u_step) != u_step) // it may have come near a collider now
+        b_near[appendTo(SRS_LIST_NEAR)] = uvec2(number, SRS_PUSHING);
     addLoad(int(mover), node.mass, imageLoad(i_start, texel).xyz, move);
 }

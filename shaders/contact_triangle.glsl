@@ -2,115 +2,115 @@
 #include "contact_point.glsl"
 
 struct Corners {
-    dvec3 a, b, c;
+    real3 a, b, c;
 };
 
-dvec3 weigh(Corners p, dvec3 weights) { return weights.x * p.a + weights.y * p.b + weights.z * p.c; }
+real3 weigh(Corners p, real3 weights) { return weights.x * p.a + weights.y * p.b + weights.z * p.c; }
 
-double longestEdge(Corners p) { return max(max(distance(p.a, p.b), distance(p.b, p.c)), distance(p.c, p.a)); }
+real longestEdge(Corners p) { return max(max(distance(p.a, p.b), distance(p.b, p.c)), distance(p.c, p.a)); }
 
 /// The vector in the triangle's plane along which the interpolated depth grows.
-dvec3 depthGradient(Corners p, dvec3 depth) {
-    dvec3 e = p.b - p.a, f = p.c - p.a;
-    double ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
+real3 depthGradient(Corners p, real3 depth) {
+    real3 e = p.b - p.a, f = p.c - p.a;
+    real ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), det = ee * ff - ef * ef;
     if (!(det > 1e-12 * ee * ff))
-        return dvec3(0.0);
-    double a = depth.y - depth.x, b = depth.z - depth.x;
+        return real3(0.0);
+    real a = depth.y - depth.x, b = depth.z - depth.x;
     return ((a * ff - b * ef) * e + (b * ee - a * ef) * f) / det;
 }
 
 /// Where along from..to lies what is nearest to p: 0 to 1.
-double alongEdge(dvec3 p, dvec3 from, dvec3 to) {
-    dvec3 edge = to - from;
-    double length2 = dot(edge, edge);
-    return length2 > 0.0 ? clamp(dot(p - from, edge) / length2, 0.0lf, 1.0lf) : 0.0;
+real alongEdge(real3 p, real3 from, real3 to) {
+    real3 edge = to - from;
+    real length2 = dot(edge, edge);
+    return length2 > 0.0 ? clamp(dot(p - from, edge) / length2, real(0.0), real(1.0)) : 0.0;
 }
 
 /// Weights of the triangle's point that is nearest to p.
-dvec3 closestOnTriangle(dvec3 p, Corners t) {
-    dvec3 ab = t.b - t.a, ac = t.c - t.a, normal = cross(ab, ac), ap = p - t.a;
-    double whole = dot(normal, normal);
+real3 closestOnTriangle(real3 p, Corners t) {
+    real3 ab = t.b - t.a, ac = t.c - t.a, normal = cross(ab, ac), ap = p - t.a;
+    real whole = dot(normal, normal);
     if (whole > 0.0) {
-        double wb = dot(cross(ap, ac), normal) / whole, wc = dot(cross(ab, ap), normal) / whole;
+        real wb = dot(cross(ap, ac), normal) / whole, wc = dot(cross(ab, ap), normal) / whole;
         if (wb >= 0.0 && wc >= 0.0 && wb + wc <= 1.0)
-            return dvec3(1.0 - wb - wc, wb, wc);
+            return real3(1.0 - wb - wc, wb, wc);
     }
-    double s = alongEdge(p, t.a, t.b);
-    dvec3 best = dvec3(1.0 - s, s, 0.0);
-    dvec3 apart = p - weigh(t, best);
-    double nearest = dot(apart, apart);
+    real s = alongEdge(p, t.a, t.b);
+    real3 best = real3(1.0 - s, s, 0.0);
+    real3 apart = p - weigh(t, best);
+    real nearest = dot(apart, apart);
     s = alongEdge(p, t.a, t.c);
-    dvec3 other = dvec3(1.0 - s, 0.0, s);
+    real3 other = real3(1.0 - s, 0.0, s);
     apart = p - weigh(t, other);
     if (dot(apart, apart) < nearest) {
         nearest = dot(apart, apart);
         best = other;
     }
     s = alongEdge(p, t.b, t.c);
-    other = dvec3(0.0, 1.0 - s, s);
+    other = real3(0.0, 1.0 - s, s);
     apart = p - weigh(t, other);
     return dot(apart, apart) < nearest ? other : best;
 }
 
 /// Corners, edge middles and centroid.
-dvec3 startWeights(int i) {
+real3 startWeights(int i) {
     if (i < 3)
-        return dvec3(i == 0, i == 1, i == 2);
-    return i == 6 ? dvec3(1.0lf / 3.0lf) : dvec3(i != 4, i != 5, i != 3) * 0.5;
+        return real3(i == 0, i == 1, i == 2);
+    return i == 6 ? real3(real(1.0) / real(3.0)) : real3(i != 4, i != 5, i != 3) * 0.5;
 }
 
 /// xyz: weights of the point with the least gap; w: this gap.
-dvec4 deepestPoint(int c, Corners p, dvec3 depth) {
-    dvec4 best = dvec4(0.0), sampled = dvec4(0.0);
+real4 deepestPoint(int c, Corners p, real3 depth) {
+    real4 best = real4(0.0), sampled = real4(0.0);
     for (int i = 0; i < 7; ++i) {
-        dvec3 weights = startWeights(i);
-        dvec4 here = sampleShape(c, weigh(p, weights));
-        double gap = here.w - dot(weights, depth);
+        real3 weights = startWeights(i);
+        real4 here = sampleShape(c, weigh(p, weights));
+        real gap = here.w - dot(weights, depth);
         if (i == 0 || gap < best.w) {
-            best = dvec4(weights, gap);
+            best = real4(weights, gap);
             sampled = here;
         }
     }
-    dvec3 uphill = depthGradient(p, depth);
-    double least = 0.25lf * longestEdge(p);
-    dvec3 at = weigh(p, best.xyz);
-    double stretch = 1.0;
+    real3 uphill = depthGradient(p, depth);
+    real least = real(0.25) * longestEdge(p);
+    real3 at = weigh(p, best.xyz);
+    real stretch = 1.0;
     for (int i = 0; i < SRS_TRIANGLE_ITERATIONS; ++i) {
-        double stride = stretch * max(abs(sampled.w + b_collider[c].size.x), least);
-        dvec3 weights = closestOnTriangle(at - stride * (sampled.xyz - uphill), p);
-        dvec3 next = weigh(p, weights), moved = next - at;
+        real stride = stretch * max(abs(sampled.w + b_collider[c].size.x), least);
+        real3 weights = closestOnTriangle(at - stride * (sampled.xyz - uphill), p);
+        real3 next = weigh(p, weights), moved = next - at;
         if (dot(moved, moved) < 1e-16)
             break;
-        dvec4 here = sampleShape(c, next);
-        double gap = here.w - dot(weights, depth);
+        real4 here = sampleShape(c, next);
+        real gap = here.w - dot(weights, depth);
         if (gap < best.w) {
-            best = dvec4(weights, gap);
+            best = real4(weights, gap);
             at = next;
             sampled = here;
-            stretch *= 2.0lf;
+            stretch *= real(2.0);
         } else {
-            stretch *= 0.25lf;
+            stretch *= real(0.25);
         }
     }
     return best;
 }
 
 /// Does the collider lie on the inner side of the triangle, in front of the point with `weights`?
-bool meetsFromInside(int c, Corners p, dvec3 weights) {
-    dvec3 outward = cross(p.b - p.a, p.c - p.a);
-    return dot(sampleShape(c, weigh(p, weights)).xyz, outward) > 0.5lf * length(outward);
+bool meetsFromInside(int c, Corners p, real3 weights) {
+    real3 outward = cross(p.b - p.a, p.c - p.a);
+    return dot(sampleShape(c, weigh(p, weights)).xyz, outward) > real(0.5) * length(outward);
 }
 
 /// The move of the triangle's point with `weights`; zero: no contact.
-dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 surfaceDepth, out dvec3 weights) {
-    dvec3 depth = surfaceDepth;
-    double path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
+real3 triangleContact(int c, Corners y0, Corners y1, real3 surfaceDepth, out real3 weights) {
+    real3 depth = surfaceDepth;
+    real path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
     int samples = sweepSamples(path, thinOf(c));
-    dvec4 deepest = deepestPoint(c, y1, depth);
+    real4 deepest = deepestPoint(c, y1, depth);
     bool inside = meetsFromInside(c, y0, deepest.xyz);
     if (inside)
-        depth = max(depth, dvec3(SRS_WALL));
-    double s = 1.0; // the end first, then from the start on
+        depth = max(depth, real3(SRS_WALL));
+    real s = 1.0; // the end first, then from the start on
     for (int look = 0, k = 0; look <= SRS_SWEEP_SAMPLES; ++look) {
         Corners there = y1;
         if (look > 0)
@@ -120,13 +120,13 @@ dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 surfaceDepth, out dve
         if (deepest.w < 0.0 || samples == 1)
             break;
         if (look > 0)
-            k += max(1, int(min(deepest.w * double(samples) / path, double(samples)))); // apart until then
+            k += max(1, int(min(deepest.w * real(samples) / path, real(samples)))); // apart until then
         if (k >= samples)
             break;
-        s = double(k) / double(samples);
+        s = real(k) / real(samples);
     }
     weights = deepest.xyz;
     if (!(deepest.w < 0.0))
-        return dvec3(0.0);
+        return real3(0.0);
     return pointContact(c, weigh(y0, weights), weigh(y1, weights), dot(weights, depth), samples);
 }

@@ -15,11 +15,11 @@ layout(std430) writeonly restrict buffer b_asks { uvec4 b_ask[]; }; // triangle 
 layout(std430) restrict buffer b_marks { uint b_mark[]; };          // by node: the last round that moved it
 layout(std430) writeonly restrict buffer b_moverList { uint b_mover[]; };
 uniform int u_round;  // 0, 1, ...
-uniform uint u_stamp; // of step and round, below 2^28
+uniform uint u_stamp; // of step and round, below 2^28, never 0
 
 void main() {
     uint item = gl_GlobalInvocationID.x;
-    if (item >= b_candidates.count)
+    if (item >= LIST(SRS_LIST_CANDIDATES).count)
         return;
     uvec2 candidate = b_candidate[item];
     ContactTriangle triangle = b_triangle[candidate.x];
@@ -31,9 +31,8 @@ void main() {
         start[k] = dvec3(imageLoad(i_start, texelAt(triangle.nodes[k])).xyz);
         end[k] = dvec3(imageLoad(i_positions, texelAt(triangle.nodes[k])).xyz);
     }
-    for (int c = 0; c < SRS_COLLIDERS; ++c) {
-        if (((candidate.y >> c) & 1u) == 0u)
-            continue;
+    for (uint mask = candidate.y; mask != 0u; mask &= mask - 1u) {
+        int c = findLSB(mask);
         dvec3 weights;
         dvec3 depth = max(depths, dvec3(-0.5lf * thinOf(c)));
         dvec3 move = triangleContact(
@@ -59,11 +58,9 @@ void main() {
         any = true;
         b_ask[candidate.x * 3u + uint(k)] = uvec4(floatBitsToUint(moves[k]), u_stamp << 4 | uint(movers[k]));
         if (atomicExchange(b_mark[triangle.nodes[k]], u_stamp) != u_stamp) {
-            uint at = atomicAdd(b_movers[u_round].count, 1u);
-            b_mover[at] = triangle.nodes[k];
-            atomicMax(b_movers[u_round].groups, at / 64u + 1u);
+            b_mover[appendTo(SRS_LIST_MOVERS + u_round)] = triangle.nodes[k];
         }
     }
     if (any && u_round == 0)
-        atomicMax(b_again.groups, gl_NumWorkGroups.x);
+        atomicMax(LIST(SRS_LIST_AGAIN).groups, gl_NumWorkGroups.x);
 }

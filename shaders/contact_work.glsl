@@ -1,11 +1,15 @@
-// The lists that make a step's passes over triangles short.
-
-// Groups of 64 along x, y, z for an indirect dispatch, and how many items they work on.
-struct ContactList {
+// The lists that make a step's passes short: in two sets, of which a step fills one and empties the other.
+struct ContactList { // groups of 64 along x, y, z for an indirect dispatch, and how many items they work on
     uint groups, one, another, count;
 };
-layout(std430) restrict buffer b_work {
-    ContactList b_candidates; // b_candidate: triangles that may touch
-    ContactList b_again;      // the same for the second round; 0 groups where the first asked for nothing
-    ContactList b_movers[2];  // b_mover: nodes that triangles ask to move, round by round
-};
+layout(std430) restrict buffer b_work { ContactList b_list[2 * SRS_CONTACT_LISTS]; };
+
+uniform int u_set; // this step's, 0 or 1
+
+#define LIST(kind) b_list[u_set * SRS_CONTACT_LISTS + (kind)]
+
+uint appendTo(int kind) {
+    uint at = atomicAdd(LIST(kind).count, 1u);
+    atomicMax(LIST(kind).groups, at / 64u + 1u);
+    return at;
+}

@@ -2,41 +2,41 @@
 // program defines SRS_SHAPES, a bit for each SRS_SHAPE_... that it meets: others cost nothing.
 #include "contact_colliders.glsl"
 
-const double kOnCore = 1e-9; // nearer to a core no direction leads away from it
+const real kOnCore = 1e-9; // nearer to a core no direction leads away from it
 
 #define SRS_MEETS(shape) ((SRS_SHAPES >> (shape)) & 1)
 
 // xyz: gradient of length 1 (on a core, where there is none, (0, 1, 0)); w: distance.
-dvec4 aroundCore(dvec3 fromCore, double radius) {
-    double apart = length(fromCore);
-    return dvec4(apart > kOnCore ? fromCore / apart : dvec3(0.0, 1.0, 0.0), apart - radius);
+real4 aroundCore(real3 fromCore, real radius) {
+    real apart = length(fromCore);
+    return real4(apart > kOnCore ? fromCore / apart : real3(0.0, 1.0, 0.0), apart - radius);
 }
 
-dvec3 fromShank(dvec3 p, double side, double len) { return p - dvec3(0.0, side, clamp(p.z, 0.0, len)); }
+real3 fromShank(real3 p, real side, real len) { return p - real3(0.0, side, clamp(p.z, 0.0, len)); }
 
 #if SRS_MEETS(SRS_SHAPE_HOOK)
-dvec3 fromHook(dvec3 p, double bend, double len) {
-    double across = length(p.yz);
-    dvec3 nearest = dvec3(0.0, p.y < 0.0 ? -bend : bend, 0.0); // beyond the half circle: its ends
+real3 fromHook(real3 p, real bend, real len) {
+    real across = length(p.yz);
+    real3 nearest = real3(0.0, p.y < 0.0 ? -bend : bend, 0.0); // beyond the half circle: its ends
     if (p.z <= 0.0)
-        nearest = across > kOnCore ? dvec3(0.0, p.yz) * (bend / across) : dvec3(0.0, 0.0, -bend);
-    dvec3 arc = p - nearest, shank = fromShank(p, -bend, len);
+        nearest = across > kOnCore ? real3(0.0, p.yz) * (bend / across) : real3(0.0, 0.0, -bend);
+    real3 arc = p - nearest, shank = fromShank(p, -bend, len);
     return dot(shank, shank) < dot(arc, arc) ? shank : arc;
 }
 #endif
 
 #if SRS_MEETS(SRS_SHAPE_BOX)
-dvec4 aroundBox(dvec3 p, dvec3 halfSize, double radius) {
-    dvec3 outward = abs(p) - halfSize;
-    dvec3 side = dvec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
-    dvec3 beyond = max(outward, 0.0);
-    double apart = length(beyond);
+real4 aroundBox(real3 p, real3 halfSize, real radius) {
+    real3 outward = abs(p) - halfSize;
+    real3 side = real3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
+    real3 beyond = max(outward, 0.0);
+    real apart = length(beyond);
     if (apart > kOnCore)
-        return dvec4(side * beyond / apart, apart - radius);
+        return real4(side * beyond / apart, apart - radius);
     if (outward.x >= outward.y && outward.x >= outward.z) // the nearest face
-        return dvec4(side.x, 0.0, 0.0, outward.x - radius);
-    return outward.y >= outward.z ? dvec4(0.0, side.y, 0.0, outward.y - radius)
-                                  : dvec4(0.0, 0.0, side.z, outward.z - radius);
+        return real4(side.x, 0.0, 0.0, outward.x - radius);
+    return outward.y >= outward.z ? real4(0.0, side.y, 0.0, outward.y - radius)
+                                  : real4(0.0, 0.0, side.z, outward.z - radius);
 }
 #endif
 
@@ -45,18 +45,18 @@ dvec4 aroundBox(dvec3 p, dvec3 halfSize, double radius) {
 // sample by sample: a texture unit's own interpolation has 8 bits, and gives no gradient.
 uniform sampler2D t_fields;
 
-double fieldAt(ivec2 texel) { return double(texelFetch(t_fields, texel, 0).x); }
+real fieldAt(ivec2 texel) { return real(texelFetch(t_fields, texel, 0).x); }
 
-dvec4 sampleField(int c, dvec3 own) {
-    double spacing = b_collider[c].halfSize.x, scale = b_collider[c].halfSize.y;
-    dvec3 lowest = b_collider[c].middle.xyz;
+real4 sampleField(int c, real3 own) {
+    real spacing = b_collider[c].halfSize.x, scale = b_collider[c].halfSize.y;
+    real3 lowest = b_collider[c].middle.xyz;
     ivec3 dims = ivec3(b_collider[c].kind.zw, b_collider[c].field.x);
-    dvec3 within = clamp(own, lowest, lowest + spacing * dvec3(dims - 1));
-    dvec3 at = (within - lowest) / spacing;
+    real3 within = clamp(own, lowest, lowest + spacing * real3(dims - 1));
+    real3 at = (within - lowest) / spacing;
     ivec3 cell = clamp(ivec3(at), ivec3(0), dims - 2);
-    dvec3 share = clamp(at - dvec3(cell), 0.0, 1.0);
+    real3 share = clamp(at - real3(cell), 0.0, 1.0);
     ivec2 first = ivec2(b_collider[c].field.y + cell.x, cell.y + dims.y * cell.z);
-    dvec4 low, high; // at x and x + 1: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
+    real4 low, high; // at x and x + 1: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
     low.x = fieldAt(first);
     low.y = fieldAt(first + ivec2(0, 1));
     low.z = fieldAt(first + ivec2(0, dims.y));
@@ -65,25 +65,25 @@ dvec4 sampleField(int c, dvec3 own) {
     high.y = fieldAt(first + ivec2(1, 1));
     high.z = fieldAt(first + ivec2(1, dims.y));
     high.w = fieldAt(first + ivec2(1, dims.y + 1));
-    dvec4 along = mix(low, high, share.x), slopes = high - low;
-    dvec2 mixedY = mix(along.xz, along.yw, share.y), slopesX = mix(slopes.xz, slopes.yw, share.y);
-    double value = mix(mixedY.x, mixedY.y, share.z) * scale;
-    dvec3 gradient = dvec3(mix(slopesX.x, slopesX.y, share.z), mix(along.y - along.x, along.w - along.z, share.z),
+    real4 along = mix(low, high, share.x), slopes = high - low;
+    real2 mixedY = mix(along.xz, along.yw, share.y), slopesX = mix(slopes.xz, slopes.yw, share.y);
+    real value = mix(mixedY.x, mixedY.y, share.z) * scale;
+    real3 gradient = real3(mix(slopesX.x, slopesX.y, share.z), mix(along.y - along.x, along.w - along.z, share.z),
                          mixedY.y - mixedY.x) * (scale / spacing);
-    dvec3 beyond = own - within; // sim/distance_field.h
-    double away2 = dot(beyond, beyond);
+    real3 beyond = own - within; // sim/distance_field.h
+    real away2 = dot(beyond, beyond);
     if (away2 > 0.0) {
-        double near = max(value, 0.0);
+        real near = max(value, 0.0);
         value = sqrt(away2 + near * near);
         gradient = beyond + near * gradient;
     }
-    double len = length(gradient);
-    return dvec4(len > kOnCore ? gradient / len : dvec3(0.0, 1.0, 0.0), value);
+    real len = length(gradient);
+    return real4(len > kOnCore ? gradient / len : real3(0.0, 1.0, 0.0), value);
 }
 #endif
 
-dvec4 sampleShape(int c, dvec3 own) {
-    double radius = b_collider[c].size.x;
+real4 sampleShape(int c, real3 own) {
+    real radius = b_collider[c].size.x;
     int shape = shapeOf(c);
 #if SRS_MEETS(SRS_SHAPE_CAPSULE)
     if (shape == SRS_SHAPE_CAPSULE)
@@ -99,11 +99,11 @@ dvec4 sampleShape(int c, dvec3 own) {
 #endif
 #if SRS_MEETS(SRS_SHAPE_HALF_SPACE)
     if (shape == SRS_SHAPE_HALF_SPACE)
-        return dvec4(0.0, 1.0, 0.0, own.y - radius);
+        return real4(0.0, 1.0, 0.0, own.y - radius);
 #endif
 #if SRS_MEETS(SRS_SHAPE_MESH)
     if (shape == SRS_SHAPE_MESH)
-        return sampleField(c, own) - dvec4(0.0, 0.0, 0.0, radius);
+        return sampleField(c, own) - real4(0.0, 0.0, 0.0, radius);
 #endif
     return aroundCore(own, radius);
 }

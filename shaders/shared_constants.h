@@ -56,6 +56,13 @@
 #define SRS_SHAPE_HALF_SPACE 4
 #define SRS_SHAPE_MESH 5
 
+// Contact on the GPU (sim/contact_pass.h): lists of a step
+#define SRS_LIST_NEAR 0       // nodes near a collider
+#define SRS_LIST_CANDIDATES 1 // boundary triangles near one
+#define SRS_LIST_AGAIN 2      // the same for the second round: no groups where the first asked for nothing
+#define SRS_LIST_MOVERS 3     // nodes that triangles ask to move, a list a round
+#define SRS_CONTACT_LISTS (SRS_LIST_MOVERS + SRS_CONTACT_ITERATIONS)
+
 #define SRS_LOAD_STRIPES 16 // copies of the sums of what colliders gave (shaders/contact_loads.glsl)
 
 // Strokes (sim/blade.h). The last three are powers of two, exact as float and as double.

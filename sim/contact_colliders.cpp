@@ -7,6 +7,7 @@
 #include "sim/shape_distance.h"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 namespace serosa::sim {
@@ -20,12 +21,14 @@ namespace {
 
 constexpr double kEndless = 1e30; // for infinity, which shaders need not know; contact_held.comp
 
-// As in shaders/contact_colliders.glsl.
+// As in shaders/contact_colliders.glsl, of doubles and of floats.
+template <class Vec4>
 struct GpuCollider {
-    glm::dvec4 from, to, turnFrom, turnTo, turnBetween, size, middle, halfSize;
-    glm::vec4 ball, move;
+    Vec4 from, to, turnFrom, turnTo, turnBetween, size, middle, halfSize, move;
     glm::ivec4 kind, field;
 };
+using ExactCollider = GpuCollider<glm::dvec4>;
+using NearCollider = GpuCollider<glm::vec4>;
 
 double finite(double value) {
     return std::min(value, kEndless);
@@ -35,31 +38,31 @@ glm::dvec4 toVec4(const glm::dquat& q) {
     return {q.x, q.y, q.z, q.w};
 }
 
-GpuCollider gpuCollider(const ToolMotion& motion, int fieldColumn) {
+template <class Vec4>
+GpuCollider<Vec4> gpuCollider(const ToolMotion& motion, int fieldColumn) {
     const RigidShape& shape = motion.shape;
     const bool turns = motion.turnFrom != motion.turnTo;
     const glm::dquat between =
         turns ? motion.turnTo * glm::conjugate(motion.turnFrom) : glm::dquat(1, 0, 0, 0);
-    GpuCollider to{};
-    to.from = glm::dvec4(motion.from, motion.friction);
-    to.to = glm::dvec4(motion.to, finite(motion.grip));
-    to.turnFrom = toVec4(motion.turnFrom);
-    to.turnTo = toVec4(motion.turnTo);
-    to.turnBetween = toVec4(between);
-    to.size = glm::dvec4(shape.radius, shape.length, shape.bend, finite(thinnestHalfWidth(shape)));
-    to.middle = glm::dvec4(shape.middle, 0);
-    to.halfSize = glm::dvec4(shape.halfSize, 0);
+    GpuCollider<Vec4> to{};
+    to.from = Vec4(glm::dvec4(motion.from, motion.friction));
+    to.to = Vec4(glm::dvec4(motion.to, finite(motion.grip)));
+    to.turnFrom = Vec4(toVec4(motion.turnFrom));
+    to.turnTo = Vec4(toVec4(motion.turnTo));
+    to.turnBetween = Vec4(toVec4(between));
+    to.size = Vec4(glm::dvec4(shape.radius, shape.length, shape.bend, finite(thinnestHalfWidth(shape))));
+    to.middle = Vec4(glm::dvec4(shape.middle, 0));
+    to.halfSize = Vec4(glm::dvec4(shape.halfSize, 0));
+    to.move = Vec4(glm::dvec4(glm::distance(motion.from, motion.to),
+                              2 * glm::length(glm::dvec3(between.x, between.y, between.z)), 0, 0));
     to.kind = {motion.mode, int(shape.kind), 0, 0};
     if (shape.kind == ShapeKind::mesh) {
         const glm::ivec3& dims = shape.field->dims();
-        to.middle = glm::dvec4(shape.field->lowest() * shape.fieldScale, 0);
-        to.halfSize = glm::dvec4(shape.field->step() * shape.fieldScale, shape.fieldScale, 0, 0);
+        to.middle = Vec4(glm::dvec4(shape.field->lowest() * shape.fieldScale, 0));
+        to.halfSize = Vec4(glm::dvec4(shape.field->step() * shape.fieldScale, shape.fieldScale, 0, 0));
         to.kind = {motion.mode, int(shape.kind), dims.x, dims.y};
         to.field = {dims.z, fieldColumn, 0, 0};
     }
-    to.ball = glm::vec4(glm::vec3(motion.to), float(finite(boundingRadius(shape))));
-    to.move = glm::vec4(glm::vec3(motion.to - motion.from),
-                        float(2 * glm::length(glm::dvec3(between.x, between.y, between.z))));
     return to;
 }
 
@@ -76,7 +79,9 @@ ContactColliders::ContactColliders(const SolverSetup& setup) : setup_(setup) {
     if (count == 0)
         return;
     const std::size_t step = gpu::uniformOffsetStep();
-    stride_ = (count * sizeof(GpuCollider) + step - 1) / step * step;
+    const auto rounded = [step](std::size_t bytes) { return (bytes + step - 1) / step * step; };
+    near_ = rounded(count * sizeof(ExactCollider));
+    stride_ = near_ + rounded(count * sizeof(NearCollider));
     std::map<const DistanceField*, int> columns; // meshes may share a field
     int width = 0, height = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -106,12 +111,16 @@ ContactColliders::ContactColliders(const SolverSetup& setup) : setup_(setup) {
 }
 
 std::vector<gpu::ShaderDefine> ContactColliders::defines() const {
-    unsigned shapes = 0;
-    for (std::size_t i = 0; i < count(); ++i)
+    unsigned shapes = 0, pushing = 0;
+    for (std::size_t i = 0; i < count(); ++i) {
         shapes |= 1u << int(shapeOf(setup_, i).kind);
+        if (i >= setup_.tools.size() || setup_.tools[i].mode == ToolMode::push)
+            pushing |= 1u << i;
+    }
     return {{"SRS_COLLIDERS", std::to_string(count())},
             {"SRS_TOOLS", std::to_string(setup_.tools.size())},
-            {"SRS_SHAPES", std::to_string(shapes)}};
+            {"SRS_SHAPES", std::to_string(shapes)},
+            {"SRS_PUSHING", std::to_string(pushing) + "u"}};
 }
 
 void ContactColliders::prepare(std::int64_t step, int count) {
@@ -120,11 +129,15 @@ void ContactColliders::prepare(std::int64_t step, int count) {
     std::vector<unsigned char> bytes(std::size_t(count) * stride_);
     for (int i = 0; i < count; ++i) {
         motions_.push_back(colliderMotions(setup_, step + i));
-        std::vector<GpuCollider> colliders;
-        for (std::size_t c = 0; c < columns_.size(); ++c)
-            colliders.push_back(gpuCollider(motions_.back()[c], columns_[c]));
-        std::copy_n(reinterpret_cast<const unsigned char*>(colliders.data()),
-                    colliders.size() * sizeof(GpuCollider), bytes.data() + std::size_t(i) * stride_);
+        std::vector<ExactCollider> exact;
+        std::vector<NearCollider> near;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            exact.push_back(gpuCollider<glm::dvec4>(motions_.back()[c], columns_[c]));
+            near.push_back(gpuCollider<glm::vec4>(motions_.back()[c], columns_[c]));
+        }
+        unsigned char* to = bytes.data() + std::size_t(i) * stride_;
+        std::memcpy(to, exact.data(), exact.size() * sizeof exact[0]);
+        std::memcpy(to + near_, near.data(), near.size() * sizeof near[0]);
     }
     if (!steps_ || steps_.bytes() < bytes.size())
         steps_ = gpu::Buffer("colliders", bytes.size(), bytes.data());
@@ -136,9 +149,13 @@ const std::vector<ToolMotion>& ContactColliders::motions(std::int64_t step) cons
     return motions_.at(std::size_t(step - first_));
 }
 
-void ContactColliders::bind(gpu::Program& program, std::int64_t step, bool shapes) const {
-    program.uniforms("b_colliders", steps_, std::size_t(step - first_) * stride_,
-                     columns_.size() * sizeof(GpuCollider));
+void ContactColliders::bind(gpu::Program& program, std::int64_t step, Precision precision,
+                            bool shapes) const {
+    const std::size_t first = std::size_t(step - first_) * stride_;
+    if (precision == Precision::exact)
+        program.uniforms("b_colliders", steps_, first, columns_.size() * sizeof(ExactCollider));
+    else
+        program.uniforms("b_colliders", steps_, first + near_, columns_.size() * sizeof(NearCollider));
     if (shapes && fields_)
         program.texture("t_fields", fields_);
 }

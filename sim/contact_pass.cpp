@@ -11,12 +11,12 @@
 
 namespace serosa::sim {
 
-static_assert(SRS_CONTACT_ITERATIONS == 2, "contact_work.glsl has lists for two rounds");
+static_assert(SRS_CONTACT_ITERATIONS <= 2, "a second round begins where the first asked for something");
 static_assert(SRS_MAX_COLLIDERS <= 16 && SRS_MAX_TOOLS <= int(SRS_HELD_MASK), "bits for each");
 
 namespace {
 
-constexpr std::uint32_t kStamps = 1u << 28; // contact_triangles.comp
+constexpr std::uint32_t kStamps = 1u << 27; // contact_near.comp: of steps
 
 // As in shaders/contact_nodes.glsl, contact_faces.glsl and contact_work.glsl.
 struct GpuNode {
@@ -33,7 +33,10 @@ struct GpuTriangle {
 struct GpuList {
     std::uint32_t groups = 0, one = 1, another = 1, count = 0;
 };
-enum Lists : std::size_t { kCandidates, kAgain, kMovers, kLists = kMovers + SRS_CONTACT_ITERATIONS };
+struct GpuHeld { // contact_grasp.glsl, before the list of nodes
+    GpuList list;
+    std::uint32_t masses[3 * 8] = {};
+};
 
 template <class Item>
 gpu::Buffer bufferOf(const char* label, const std::vector<Item>& items) {
@@ -59,8 +62,11 @@ Status ContactPass::initialize(const SolverSetup& setup, const StateTextures& te
     connections_ = setup.lattice->connections;
     SEROSA_TRY(createPrograms(textures.layout()));
     const std::size_t texels = textures.layout().texels();
-    work_ = bufferOf("contact lists", std::vector<GpuList>(kLists));
-    heldMasses_ = bufferOf("held masses", std::vector<std::uint32_t>(3 * 8, 0));
+    work_ = bufferOf("contact lists", std::vector<GpuList>(2 * SRS_CONTACT_LISTS));
+    listed_ = bufferOf("contact near, by node", std::vector<std::uint32_t>(pushes_ ? texels : 1, 0));
+    near_ = gpu::Buffer("contact near", (pushes_ ? texels : 1) * 2 * sizeof(std::uint32_t), nullptr);
+    heldNodes_ =
+        gpu::Buffer("held nodes", sizeof(GpuHeld) + (grasps_ ? texels : 0) * sizeof(std::uint32_t), nullptr);
     marks_ = bufferOf("contact marks", std::vector<std::uint32_t>(triangles_ ? texels : 1, 0));
     movers_ = gpu::Buffer("contact movers", (triangles_ ? texels : 1) * sizeof(std::uint32_t), nullptr);
     createTriangles(textures);
@@ -90,8 +96,10 @@ Status ContactPass::createPrograms(const TextureLayout& layout) {
         SEROSA_TRY(create(triangle_, "contact_triangles.comp"));
         SEROSA_TRY(create(move_, "contact_moves.comp"));
     }
-    if (pushes_)
+    if (pushes_) {
+        SEROSA_TRY(create(listNear_, "contact_near.comp"));
         SEROSA_TRY(create(push_, "contact_push.comp"));
+    }
     return {};
 }
 
@@ -134,11 +142,15 @@ void ContactPass::createTriangles(const StateTextures& textures) {
     for (gpu::Program* program : {&close_, &held_, &move_, &push_})
         if (*program)
             program->buffer("b_nodes", nodes_);
-    if (push_)
-        push_.buffer("b_work", work_);
     for (gpu::Program* program : {&close_, &held_})
         if (*program)
-            program->buffer("b_heldMasses", heldMasses_);
+            program->buffer("b_held", heldNodes_);
+    for (gpu::Program* program : {&listNear_, &push_, &move_})
+        if (*program)
+            program->buffer("b_work", work_).buffer("b_nearList", near_);
+    for (gpu::Program* program : {&listNear_, &move_})
+        if (*program)
+            program->buffer("b_listed", listed_);
     if (!triangles_)
         return;
     trianglesData_ = bufferOf("contact triangles", data);
@@ -156,10 +168,7 @@ void ContactPass::createTriangles(const StateTextures& textures) {
         .buffer("b_asks", asks_)
         .buffer("b_marks", marks_)
         .buffer("b_moverList", movers_);
-    move_.buffer("b_work", work_)
-        .buffer("b_corners", corners_)
-        .buffer("b_asks", asks_)
-        .buffer("b_moverList", movers_);
+    move_.buffer("b_corners", corners_).buffer("b_asks", asks_).buffer("b_moverList", movers_);
 }
 
 void ContactPass::connect(const StateTextures& textures, const std::vector<std::uint32_t>& connections) {
@@ -179,24 +188,21 @@ void ContactPass::prepare(const StateTextures& textures, std::int64_t step, int 
 }
 
 void ContactPass::run(StateTextures& textures, std::int64_t step) {
+    using enum ContactColliders::Precision;
     if (empty())
         return;
-    for (gpu::Program* program : {&close_, &held_, &cull_, &triangle_, &move_, &push_})
+    for (gpu::Program* program : {&close_, &held_, &triangle_, &move_, &push_})
         if (*program)
-            colliders_.bind(*program, step, program != &move_);
+            colliders_.bind(*program, step, exact, program != &move_);
+    for (gpu::Program* program : {&listNear_, &cull_})
+        if (*program)
+            colliders_.bind(*program, step, single, true);
     // Of whatever made the positions, a render target or an image.
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     if (grasps_)
         runGrasps(textures, step);
-    if (triangles_)
-        runTriangles(textures);
-    if (!pushes_)
-        return;
-    setPositions(push_, textures, true);
-    push_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_ONLY);
-    push_.dispatch({textures.layout().width, textures.layout().height, 1});
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                    GL_COMMAND_BARRIER_BIT);
+    if (pushes_)
+        runPushes(textures, int(step % 2));
 }
 
 void ContactPass::setPositions(gpu::Program& program, const StateTextures& textures, bool moves) const {
@@ -218,14 +224,14 @@ void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
     const glm::ivec3 items(textures.layout().width, textures.layout().height, 1);
     const int now = int(step % 3);
     if (opens || closes || (holds && recount_)) {
-        const std::array<std::uint32_t, 3 * 8> none{};
-        heldMasses_.upload(0, sizeof none, none.data());
+        const GpuHeld none;
+        heldNodes_.upload(0, sizeof none, &none);
         close_.set("u_opens", opens).set("u_closes", closes).set("u_now", now);
         close_.image("i_start", textures.positions_[1 - textures.current_], GL_READ_ONLY);
         close_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_WRITE);
         close_.dispatch(items);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                        GL_BUFFER_UPDATE_BARRIER_BIT);
+                        GL_COMMAND_BARRIER_BIT);
     }
     recount_ = !holds; // the next grasp begins with a count
     if (!holds)
@@ -233,36 +239,51 @@ void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
     held_.set("u_now", now);
     setPositions(held_, textures, true);
     held_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_WRITE);
-    held_.dispatch(items);
+    held_.dispatchIndirect(heldNodes_, 0);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void ContactPass::runTriangles(const StateTextures& textures) {
-    if (triangleCount_ == 0)
-        return;
-    const auto groupsOf = [](std::size_t list) { return list * sizeof(GpuList); };
+void ContactPass::runPushes(const StateTextures& textures, int set) {
+    const auto list = [set](int kind) {
+        return std::size_t(set * SRS_CONTACT_LISTS + kind) * sizeof(GpuList);
+    };
     const auto wait = [](GLbitfield also) { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | also); };
-    setPositions(cull_, textures, false);
-    cull_.dispatch({int(triangleCount_), 1, 1});
+    for (gpu::Program* program : {&listNear_, &cull_, &triangle_, &move_, &push_})
+        if (*program)
+            program->set("u_set", set);
+    stamp_ = stamp_ + 1 < kStamps ? stamp_ + 1 : 1;
+    listNear_.set("u_step", unsigned(stamp_));
+    setPositions(listNear_, textures, false);
+    listNear_.dispatch({textures.layout().width, textures.layout().height, 1});
+    const bool triangles = triangleCount_ > 0;
+    if (triangles) {
+        setPositions(cull_, textures, false);
+        cull_.dispatch({int(triangleCount_), 1, 1});
+        setPositions(triangle_, textures, false);
+        setPositions(move_, textures, true);
+        move_.set("u_step", unsigned(stamp_));
+    }
     wait(GL_COMMAND_BARRIER_BIT);
-    setPositions(triangle_, textures, false);
-    setPositions(move_, textures, true);
-    for (int round = 0; round < SRS_CONTACT_ITERATIONS; ++round) {
-        stamp_ = stamp_ + 1 < kStamps ? stamp_ + 1 : 1;
-        triangle_.set("u_round", round).set("u_stamp", unsigned(stamp_));
-        triangle_.dispatchIndirect(work_, groupsOf(round == 0 ? kCandidates : kAgain));
+    for (int round = 0; round < SRS_CONTACT_ITERATIONS && triangles; ++round) {
+        const unsigned stamp = unsigned(stamp_) * 2 + unsigned(round);
+        triangle_.set("u_round", round).set("u_stamp", stamp);
+        triangle_.dispatchIndirect(work_, list(round == 0 ? SRS_LIST_CANDIDATES : SRS_LIST_AGAIN));
         wait(GL_COMMAND_BARRIER_BIT);
-        move_.set("u_round", round).set("u_stamp", unsigned(stamp_));
-        move_.dispatchIndirect(work_, groupsOf(kMovers + std::size_t(round)));
+        move_.set("u_round", round).set("u_stamp", stamp);
+        move_.dispatchIndirect(work_, list(SRS_LIST_MOVERS + round));
         wait(GL_COMMAND_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
+    setPositions(push_, textures, true);
+    push_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_ONLY);
+    push_.dispatchIndirect(work_, list(SRS_LIST_NEAR));
+    wait(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 std::size_t ContactPass::bytes() const {
     std::size_t sum = colliders_.bytes();
-    for (const gpu::Buffer* buffer :
-         {&nodes_, &trianglesData_, &corners_, &candidates_, &asks_, &marks_, &movers_, &work_, &heldMasses_})
+    for (const gpu::Buffer* buffer : {&nodes_, &trianglesData_, &corners_, &candidates_, &asks_, &marks_,
+                                      &movers_, &work_, &listed_, &near_, &heldNodes_})
         sum += buffer->bytes();
     return sum;
 }

@@ -5,13 +5,14 @@
 //
 //   contact_close      where a grasp opens or closes: who is held
 //   contact_held       where a grasp is closed: held nodes go with their tools, slip, and are let go
-//   contact_cull       triangles that may touch, into a list
-//   contact_triangles, contact_moves    SRS_CONTACT_ITERATIONS rounds: what triangles ask of their corners,
-//                      and each node's largest move; over lists, so that what is far costs nothing
-//   contact_push       every node by itself
+//   contact_near, contact_cull          nodes and triangles that may touch, into lists
+//   contact_triangles, contact_moves    SRS_CONTACT_ITERATIONS rounds over these: what triangles ask of their
+//                      corners, and each node's largest move
+//   contact_push       every node of the list by itself
 //
-// Nothing is read back. Lists are filled in any order, but no result depends on theirs, and sums are of whole
-// numbers: the same input gives the same bytes.
+// Nothing is read back: how many groups a pass over a list takes is written by the pass that fills it. Lists
+// are filled in any order, but no result depends on theirs, and sums are of whole numbers: the same input
+// gives the same bytes.
 
 #include "base/result.h"
 #include "gpu/program.h"
@@ -55,7 +56,7 @@ private:
     void createTriangles(const StateTextures& textures);
     void setPositions(gpu::Program& program, const StateTextures& textures, bool moves) const;
     void runGrasps(const StateTextures& textures, std::int64_t step);
-    void runTriangles(const StateTextures& textures);
+    void runPushes(const StateTextures& textures, int set);
 
     SolverSetup setup_;
     ContactColliders colliders_;
@@ -66,8 +67,9 @@ private:
     bool stale_ = false, recount_ = true;
     std::uint32_t stamp_ = 0;
 
-    gpu::Program close_, held_, cull_, triangle_, move_, push_;
-    gpu::Buffer nodes_, trianglesData_, corners_, candidates_, asks_, marks_, movers_, work_, heldMasses_;
+    gpu::Program close_, held_, listNear_, cull_, triangle_, move_, push_;
+    gpu::Buffer nodes_, trianglesData_, corners_, candidates_, asks_, marks_, movers_, work_, listed_, near_,
+        heldNodes_;
 };
 
 } // namespace serosa::sim

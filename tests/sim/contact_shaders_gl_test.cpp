@@ -114,7 +114,7 @@ protected:
             output("outputs", probes.size() * sizeof(Answer), nullptr);
         program.set("u_probes", int(probes.size()));
         program.buffer("b_inputs", input).buffer("b_outputs", output);
-        colliders.bind(program, 0, true);
+        colliders.bind(program, 0, sim::ContactColliders::Precision::exact, true);
         program.dispatch({int(probes.size()), 1, 1});
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         std::vector<Answer> answers(probes.size());
