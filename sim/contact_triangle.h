@@ -2,6 +2,9 @@
 // Contact of a triangle of the organ's surface with a rigid shape during a step: the point of it that lies
 // deepest (Macklin, Erleben, Mueller, Chentanez, Jeschke & Kim 2020, Local Optimization for Robust Signed
 // Distance Field Collision), then the rule of sim/contact_point.h for this point.
+//
+// A triangle that the shape comes to from inside, through what lies before it, is kept SRS_WALL off: a sheet
+// one cell thick that a thin probe presses would turn inside out under its tip and let it through.
 
 #include "sim/contact_point.h"
 
@@ -26,8 +29,8 @@ struct TriangleContact {
     glm::dvec3 move{0}; // of the point with these weights, in the shape's frame; zero: no contact
 };
 
-/// \param depth as contactDepthFor gives them
+/// \param surface depths as contactDepthFor gives them; the corners wind counter-clockwise seen from outside
 TriangleContact triangleContact(const ContactShape& collider, const Corners& y0, const Corners& y1,
-                                const glm::dvec3& depth);
+                                const glm::dvec3& surface);
 
 } // namespace serosa::sim
