@@ -1,5 +1,5 @@
-// Contact, a round's second pass: each node that triangles ask to move takes the largest of these moves (the first of
-// them, where several are as large). Twin of ContactStage::pushTriangles.
+// Contact, a round's second pass: each node that triangles ask to move goes, triangle after triangle, as far along each
+// of these moves as it does not yet. Twin of ContactStage::pushTriangles.
 #version 450 core
 layout(local_size_x = 64) in;
 #include "contact_colliders.glsl"
@@ -25,22 +25,22 @@ void main() {
         return;
     uint number = b_mover[item];
     ContactNode node = b_node[number];
-    vec3 move = vec3(0.0);
-    uint mover = 0u;
+    ivec2 texel = texelAt(number);
+    vec3 start = imageLoad(i_start, texel).xyz, move = vec3(0.0);
     for (uint i = node.firstCorner; i < node.firstCorner + node.corners; ++i) {
         uvec4 ask = b_ask[b_corner[i]];
         if (ask.w >> 4 != u_stamp)
             continue;
         vec3 asked = uintBitsToFloat(ask.xyz);
-        if (dot(asked, asked) > dot(move, move)) {
-            move = asked;
-            mover = ask.w & 15u;
-        }
+        float length2 = dot(asked, asked), lacks = length2 - dot(move, asked);
+        if (!(lacks > 0.0))
+            continue;
+        vec3 more = asked * (lacks / length2);
+        move += more;
+        addLoad(int(ask.w & 15u), node.mass, start, more);
     }
-    ivec2 texel = texelAt(number);
     imageStore(i_positions, texel, imageLoad(i_positions, texel) + vec4(move, 0.0));
     imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(move, 0.0));
     if (atomicExchange(b_listedIn[number], u_step) != u_step) // it may have come near a collider now
         b_near[appendTo(SRS_LIST_NEAR)] = uvec2(number, SRS_PUSHING);
-    addLoad(int(mover), node.mass, imageLoad(i_start, texel).xyz, move);
 }

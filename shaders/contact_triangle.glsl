@@ -95,38 +95,38 @@ real4 deepestPoint(int c, Corners p, real3 depth) {
     return best;
 }
 
-/// Does the collider lie on the inner side of the triangle, in front of the point with `weights`?
-bool meetsFromInside(int c, Corners p, real3 weights) {
-    real3 outward = cross(p.b - p.a, p.c - p.a);
-    return dot(sampleShape(c, weigh(p, weights)).xyz, outward) > real(0.5) * length(outward);
+/// Does the collider lie on the inner side of the triangle, behind the point of it that is nearest to it?
+bool fromInside(int c, Corners y0, dvec3 depth) {
+    dvec3 outward = cross(y0.b - y0.a, y0.c - y0.a);
+    dvec3 n = sampleShape(c, weigh(y0, deepestPoint(c, y0, depth).xyz)).xyz;
+    return dot(n, outward) > 0.5lf * length(outward);
+}
+
+/// Where a triangle first touches (weights), and the gap there (w); >= 0: nowhere.
+dvec4 firstTouch(int c, Corners y0, Corners y1, dvec3 depth, double path, int samples) {
+    dvec4 deepest = deepestPoint(c, y1, depth);
+    for (int k = 0; k < samples && samples > 1 && deepest.w >= 0.0;) {
+        double s = double(k) / double(samples);
+        Corners there = Corners(y0.a + s * (y1.a - y0.a), y0.b + s * (y1.b - y0.b), y0.c + s * (y1.c - y0.c));
+        deepest = deepestPoint(c, there, depth);
+        k += max(1, int(min(deepest.w * double(samples) / path, double(samples)))); // apart until then
+    }
+    return deepest;
 }
 
 /// The move of the triangle's point with `weights`; zero: no contact.
-real3 triangleContact(int c, Corners y0, Corners y1, real3 surfaceDepth, out real3 weights) {
-    real3 depth = surfaceDepth;
-    real path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
+dvec3 triangleContact(int c, Corners y0, Corners y1, dvec3 surface, out dvec3 weights) {
+    double path = max(max(distance(y0.a, y1.a), distance(y0.b, y1.b)), distance(y0.c, y1.c));
     int samples = sweepSamples(path, thinOf(c));
-    real4 deepest = deepestPoint(c, y1, depth);
-    bool inside = meetsFromInside(c, y0, deepest.xyz);
-    if (inside)
-        depth = max(depth, real3(SRS_WALL));
-    real s = 1.0; // the end first, then from the start on
-    for (int look = 0, k = 0; look <= SRS_SWEEP_SAMPLES; ++look) {
-        Corners there = y1;
-        if (look > 0)
-            there = Corners(y0.a + s * (y1.a - y0.a), y0.b + s * (y1.b - y0.b), y0.c + s * (y1.c - y0.c));
-        if (look > 0 || inside)
-            deepest = deepestPoint(c, there, depth);
-        if (deepest.w < 0.0 || samples == 1)
-            break;
-        if (look > 0)
-            k += max(1, int(min(deepest.w * real(samples) / path, real(samples)))); // apart until then
-        if (k >= samples)
-            break;
-        s = real(k) / real(samples);
+    // Most triangles do not even touch as a wall.
+    dvec3 depth = max(surface, min(surface, dvec3(0.0)) + double(SRS_WALL));
+    dvec4 deepest = firstTouch(c, y0, y1, depth, path, samples);
+    if (deepest.w < 0.0 && !fromInside(c, y0, surface)) {
+        depth = surface;
+        deepest = firstTouch(c, y0, y1, depth, path, samples);
     }
     weights = deepest.xyz;
     if (!(deepest.w < 0.0))
-        return real3(0.0);
+        return dvec3(0.0);
     return pointContact(c, weigh(y0, weights), weigh(y1, weights), dot(weights, depth), samples);
 }

@@ -43,9 +43,9 @@
 #define SRS_EJECTION 0.01          // spacings a step: how fast a push moves out what is inside of it already
 #define SRS_SWEEP_SAMPLES 64       // most, of a step's motion against a collider
 #define SRS_SWEEP_BISECTIONS 12    // of the moment of touch between two samples
-#define SRS_CONTACT_ITERATIONS 2   // rounds over the boundary triangles a step
+#define SRS_CONTACT_ITERATIONS 3   // rounds over the boundary triangles a step
 #define SRS_TRIANGLE_ITERATIONS 12 // for the deepest point of a triangle
-#define SRS_WALL 0.4       // spacings that a surface which a tool meets from inside is kept off it, at least
+#define SRS_WALL 0.4 // spacings: how near a tool may come, from inside, to the far side of what it presses
 #define SRS_GRIP_SLACK 0.1 // spacings outside of its tool beyond which a held node that slips is let go
 
 // Rigid shapes: ShapeKind (sim/rigid_shape.h)

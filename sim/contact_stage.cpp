@@ -70,8 +70,7 @@ ContactStage::ContactStage(const SolverSetup& setup, std::vector<double> mass)
     free_.resize(count);
     seen_.assign(count, 0);
     asked_.assign(count, 0);
-    askedBy_.resize(count);
-    askedMove_.resize(count);
+    granted_.resize(count);
     connect(lattice.connections);
 }
 
@@ -264,8 +263,10 @@ std::vector<ContactStage::Candidate> ContactStage::candidates(const std::vector<
                         path, glm::distance(motion.ownAtStart(start_[t[k]]), motion.ownAtEnd(end_[t[k]])));
                 const double edge = std::max(glm::distance(end_[t.x], end_[t.y]),
                                              glm::distance(end_[t.x], end_[t.z])),
-                             depth = std::max({depth_[t.x], depth_[t.y], depth_[t.z], SRS_WALL});
-                if (shapeDistance(motion.shape, motion.ownAtEnd(end_[t.x])) <= edge + path + depth + kNearBy)
+                             depth =
+                                 std::max({depth_[t.x], depth_[t.y], depth_[t.z], -0.5 * thin_[collider]});
+                if (shapeDistance(motion.shape, motion.ownAtEnd(end_[t.x])) <=
+                    edge + path + std::max(depth, double(SRS_WALL)) + kNearBy)
                     found[i].push_back({triangle, collider});
             }
         }
@@ -294,7 +295,7 @@ bool ContactStage::ask(const Candidate& candidate, Asked& asked) const {
         cornerShares(contact.weights, {inverseMass_[t.x], inverseMass_[t.y], inverseMass_[t.z]});
     if (shares == glm::dvec3(0)) // fixed
         return false;
-    asked = {candidate.triangle, candidate.collider, {}};
+    asked = {candidate.triangle, {candidate.collider, candidate.collider, candidate.collider}, {}};
     for (int k = 0; k < 3; ++k)
         asked.moves[k] = motion.turnTo * contact.move * shares[k];
     return true;
@@ -310,30 +311,47 @@ bool ContactStage::pushTriangles(std::vector<Candidate>& candidates) {
             if (ask(candidates[i], asked))
                 parts[part].push_back(asked);
     });
+    // Triangle by triangle, each once: of several colliders a corner takes the largest move.
+    std::vector<Asked> all;
+    for (const std::vector<Asked>& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Asked& a, const Asked& b) { return a.triangle < b.triangle; });
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (kept == 0 || all[kept - 1].triangle != all[i].triangle) {
+            all[kept++] = all[i];
+            continue;
+        }
+        Asked& one = all[kept - 1];
+        for (int k = 0; k < 3; ++k)
+            if (glm::dot(all[i].moves[k], all[i].moves[k]) > glm::dot(one.moves[k], one.moves[k])) {
+                one.moves[k] = all[i].moves[k];
+                one.colliders[k] = all[i].colliders[k];
+            }
+    }
+    all.resize(kept);
+
     ++round_;
     std::vector<std::uint32_t> moved;
-    for (const std::vector<Asked>& part : parts)
-        for (const Asked& asked : part)
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t node = surface_.triangles[asked.triangle][k];
-                const glm::dvec3& by = asked.moves[k];
-                if (asked_[node] != round_) {
-                    asked_[node] = round_;
-                    askedMove_[node] = glm::dvec3(0);
-                    moved.push_back(node);
-                }
-                if (glm::dot(by, by) > glm::dot(askedMove_[node], askedMove_[node])) {
-                    askedMove_[node] = by;
-                    askedBy_[node] = asked.collider;
-                }
-            }
-    for (const std::uint32_t node : moved) {
-        const glm::dvec3& by = askedMove_[node];
-        if (by == glm::dvec3(0))
-            continue;
-        end_[node] += by;
-        loads_[askedBy_[node]].add(colliders_[askedBy_[node]], mass_[node], start_[node], by);
-    }
+    const auto grant = [&](std::uint32_t node, const glm::dvec3& by, std::uint32_t collider) {
+        if (asked_[node] != round_) {
+            asked_[node] = round_;
+            granted_[node] = glm::dvec3(0);
+            moved.push_back(node);
+        }
+        const double length2 = glm::dot(by, by), lacks = length2 - glm::dot(granted_[node], by);
+        if (!(lacks > 0))
+            return;
+        const glm::dvec3 more = by * (lacks / length2);
+        granted_[node] += more;
+        loads_[collider].add(colliders_[collider], mass_[node], start_[node], more);
+    };
+    for (const Asked& asked : all)
+        for (int k = 0; k < 3; ++k)
+            grant(surface_.triangles[asked.triangle][k], asked.moves[k], asked.colliders[k]);
+    for (const std::uint32_t node : moved)
+        end_[node] += granted_[node];
     return !moved.empty();
 }
 

@@ -4,9 +4,10 @@
 //   1. grasps: a held node goes with its tool, by no more than the grip can give;
 //   2. SRS_CONTACT_ITERATIONS rounds over the triangles that close the organ: each that touches asks for a
 //      move of its corners, dx_i = move (b_i/m_i) / sum_j (b_j^2/m_j), which moves the touched point by
-//      `move` (sim/contact_triangle.h). All are asked at the same positions; a node then takes the largest
-//      move that was asked of it. (The mean of them halves a correction that its neighbours do not need, and
-//      thin probes sink in.)
+//      `move` (sim/contact_triangle.h). All are asked at the same positions; a node then goes, triangle after
+//      triangle, as far along each move asked of it as it does not yet: moves of one direction count once,
+//      and what it does follows steadily from what is asked. (The mean of them halves a correction that its
+//      neighbours do not need, and thin probes sink in.)
 //   3. every node by itself, collider after collider: none ends inside.
 // A half-space has no second: what holds for the corners of a triangle holds for all of it.
 //
@@ -72,8 +73,9 @@ private:
         std::uint32_t triangle = 0, collider = 0;
     };
     struct Asked { // of a triangle's corners
-        std::uint32_t triangle = 0, collider = 0;
-        glm::dvec3 moves[3];
+        std::uint32_t triangle = 0;
+        std::array<std::uint32_t, 3> colliders{};
+        std::array<glm::dvec3, 3> moves{};
     };
     struct Load { // mass shares times lattice units (squared)
         glm::dvec3 impulse{0}, angular{0};
@@ -114,8 +116,7 @@ private:
     std::int64_t run_ = 0;
     // Of the nodes that this round moves.
     std::vector<std::int64_t> asked_;
-    std::vector<std::uint32_t> askedBy_;
-    std::vector<glm::dvec3> askedMove_;
+    std::vector<glm::dvec3> granted_;
     std::int64_t round_ = 0;
 
     std::vector<std::uint32_t> held_; // nodes, ascending; as of heldBy

@@ -29,12 +29,6 @@ glm::dvec3 depthGradient(const Corners& p, const glm::dvec3& depth) {
     return ((a * ff - b * ef) * e + (b * ee - a * ef) * f) / det;
 }
 
-/// Does the shape lie on the inner side of the triangle, in front of the point with `weights`?
-bool meetsFromInside(const RigidShape& shape, const Corners& p, const glm::dvec3& weights) {
-    const glm::dvec3 outward = glm::cross(p[1] - p[0], p[2] - p[0]);
-    return glm::dot(sampleShape(shape, weigh(p, weights)).normal, outward) > 0.5 * glm::length(outward);
-}
-
 double longestEdge(const Corners& p) {
     return std::max({glm::distance(p[0], p[1]), glm::distance(p[1], p[2]), glm::distance(p[2], p[0])});
 }
@@ -81,24 +75,44 @@ TriangleGap deepestPoint(const RigidShape& shape, const Corners& p, const glm::d
     return best;
 }
 
+namespace {
+
+Corners between(const Corners& y0, const Corners& y1, double s) {
+    return {y0[0] + s * (y1[0] - y0[0]), y0[1] + s * (y1[1] - y0[1]), y0[2] + s * (y1[2] - y0[2])};
+}
+
+/// Does the shape lie on the inner side of the triangle, behind the point of it that is nearest to it?
+bool fromInside(const RigidShape& shape, const Corners& y0, const glm::dvec3& depth) {
+    const glm::dvec3 outward = glm::cross(y0[1] - y0[0], y0[2] - y0[0]);
+    const glm::dvec3 n = sampleShape(shape, weigh(y0, deepestPoint(shape, y0, depth).weights)).normal;
+    return glm::dot(n, outward) > 0.5 * glm::length(outward);
+}
+
+/// Where a triangle first touches, and how deep there; a gap >= 0: nowhere.
+TriangleGap firstTouch(const RigidShape& shape, const Corners& y0, const Corners& y1, const glm::dvec3& depth,
+                       double path, int samples) {
+    TriangleGap deepest = deepestPoint(shape, y1, depth);
+    for (int k = 0; k < samples && samples > 1 && deepest.gap >= 0;) {
+        deepest = deepestPoint(shape, between(y0, y1, double(k) / samples), depth);
+        k += std::max(1, int(std::min(deepest.gap * samples / path, double(samples)))); // apart until then
+    }
+    return deepest;
+}
+
+} // namespace
+
 TriangleContact triangleContact(const ContactShape& collider, const Corners& y0, const Corners& y1,
-                                const glm::dvec3& surfaceDepth) {
+                                const glm::dvec3& surface) {
     double path = 0;
     for (std::size_t i = 0; i < 3; ++i)
         path = std::max(path, glm::distance(y0[i], y1[i]));
     const int samples = sweepSamples(path, collider.thin);
-    glm::dvec3 depth = surfaceDepth;
-    TriangleGap deepest = deepestPoint(collider.shape, y1, depth);
-    if (meetsFromInside(collider.shape, y0, deepest.weights)) {
-        depth = glm::max(depth, glm::dvec3(SRS_WALL));
-        deepest = deepestPoint(collider.shape, y1, depth);
-    }
-    for (int k = 0; k < samples && samples > 1 && deepest.gap >= 0;) {
-        const double s = double(k) / samples;
-        deepest = deepestPoint(
-            collider.shape,
-            {y0[0] + s * (y1[0] - y0[0]), y0[1] + s * (y1[1] - y0[1]), y0[2] + s * (y1[2] - y0[2])}, depth);
-        k += std::max(1, int(std::min(deepest.gap * samples / path, double(samples)))); // apart until then
+    // Most triangles do not even touch as a wall.
+    glm::dvec3 depth = glm::max(surface, glm::min(surface, glm::dvec3(0)) + double(SRS_WALL));
+    TriangleGap deepest = firstTouch(collider.shape, y0, y1, depth, path, samples);
+    if (deepest.gap < 0 && !fromInside(collider.shape, y0, surface)) {
+        depth = surface;
+        deepest = firstTouch(collider.shape, y0, y1, depth, path, samples);
     }
     if (!(deepest.gap < 0))
         return {};

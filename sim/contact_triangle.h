@@ -3,9 +3,8 @@
 // deepest (Macklin, Erleben, Mueller, Chentanez, Jeschke & Kim 2020, Local Optimization for Robust Signed
 // Distance Field Collision), then the rule of sim/contact_point.h for this point.
 //
-// A triangle that the shape meets from inside, through the tissue in front of it, is the far side of a thin
-// part: it is kept off by at least SRS_WALL, whatever its depth. Else a thin probe pushes the near side of a
-// sheet one cell thick through the far side: the cells in front of it turn inside out.
+// A triangle that the shape comes to from inside, through what lies before it, is kept SRS_WALL off: a sheet
+// one cell thick that a thin probe presses would turn inside out under its tip and let it through.
 
 #include "sim/contact_point.h"
 
@@ -30,9 +29,8 @@ struct TriangleContact {
     glm::dvec3 move{0}; // of the point with these weights, in the shape's frame; zero: no contact
 };
 
-/// \param y0, y1 corners at the step's start and end, counter-clockwise from outside. \param depth as
-/// contactDepthFor gives them
+/// \param surface depths as contactDepthFor gives them; the corners wind counter-clockwise seen from outside
 TriangleContact triangleContact(const ContactShape& collider, const Corners& y0, const Corners& y1,
-                                const glm::dvec3& depth);
+                                const glm::dvec3& surface);
 
 } // namespace serosa::sim
