@@ -4,6 +4,7 @@
 #include "base/check.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace serosa::app {
 
@@ -14,8 +15,8 @@ OrganGuard::OrganGuard(OrganParts& organ, const sim::CutList& cuts, double frame
 
 void OrganGuard::restart(int frame) {
     alarm_.reset();
-    organ_.solver->takeToolImpulses();
-    impulses_.assign(organ_.setup.tools.size(), glm::dvec3(0));
+    dropLoads();
+    loads_.clear();
     sim::LatticeState state = organ_.solver->state(); // as the solver rounds it
     watchdog_.start(state);
     seen_ = accounted_ = frame;
@@ -27,20 +28,32 @@ void OrganGuard::restart(int frame) {
     }
 }
 
-void OrganGuard::account(int frame) {
-    if (accounted_ == frame)
-        return;
-    const std::vector<sim::ToolLoad> loads = organ_.solver->takeLoads();
-    watchdog_.addWork(accounted_ * frameTime_, frame * frameTime_, loads);
-    for (std::size_t i = 0; i < impulses_.size(); ++i)
-        impulses_[i] += loads[i].impulse;
-    accounted_ = frame;
+void OrganGuard::account(std::vector<sim::ToolLoad> loads) {
+    watchdog_.addWork(accounted_ * frameTime_, (accounted_ + 1) * frameTime_, loads);
+    loads_.push_back({++accounted_, std::move(loads)});
+}
+
+void OrganGuard::accountAll() {
+    for (std::vector<sim::ToolLoad>& loads : organ_.solver->flushFrames())
+        account(std::move(loads));
+}
+
+void OrganGuard::dropLoads() {
+    organ_.solver->flushFrames();
+    organ_.solver->takeLoads();
+}
+
+void OrganGuard::endFrame(int frame) {
+    organ_.solver->endFrame();
+    if (auto loads = organ_.solver->frameLoads())
+        account(std::move(*loads));
+    SEROSA_CHECK(accounted_ <= frame && frame <= accounted_ + 2, "one call a frame");
 }
 
 bool OrganGuard::check(int frame) {
     if (frozen() || seen_ == frame)
         return false;
-    account(frame);
+    accountAll();
     sim::LatticeState state = organ_.solver->state();
     if (const std::optional<sim::Alarm> found = watchdog_.check(state)) {
         // Frame by frame first, then the steps of the first bad frame.
@@ -59,18 +72,16 @@ bool OrganGuard::check(int frame) {
     return false;
 }
 
-std::vector<glm::dvec3> OrganGuard::takeToolImpulses(int frame) {
-    if (!frozen())
-        account(frame);
-    std::vector<glm::dvec3> taken(impulses_.size(), glm::dvec3(0));
-    std::swap(taken, impulses_);
-    return taken;
+std::vector<FrameLoads> OrganGuard::takeLoads(bool all) {
+    if (all && !frozen())
+        accountAll();
+    return std::exchange(loads_, {});
 }
 
 std::optional<sim::Alarm> OrganGuard::retrace(Good& good, std::int64_t last, int steps) {
     sim::Solver& solver = *organ_.solver;
     solver.setState(good.state);
-    solver.takeToolImpulses();
+    solver.takeLoads();
     for (std::int64_t step = good.state.step; step < last;) {
         const std::int64_t next = std::min(last, step + steps);
         solver.advance(int(next - step));
@@ -96,7 +107,7 @@ void OrganGuard::freeze(const sim::Alarm& alarm, const Good& good) {
     alarm_->position = organ_.lattice.toWorld(good.state.positions[alarm.node]);
     organ_.solver->setState(good.state);
     organ_.solver->forgetCuts(); // of steps that are taken back
-    organ_.solver->takeToolImpulses();
+    dropLoads();
 }
 
 } // namespace serosa::app

@@ -16,6 +16,12 @@ namespace serosa::app {
 
 constexpr int kFramesBetweenChecks = 10;
 
+/// What tools and bodies gave to an organ in one frame.
+struct FrameLoads {
+    int frame = 0;
+    std::vector<sim::ToolLoad> loads; // one a collider
+};
+
 class OrganGuard {
 public:
     /// An organ with a solver, and its strokes so far; both outlive this.
@@ -29,9 +35,13 @@ public:
 
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }
-    /// Impulses of the tools until `frame` since the last call, as Solver::takeToolImpulses, which is this
-    /// guard's to call. They are read back when they are asked for, or with a look.
-    std::vector<glm::dvec3> takeToolImpulses(int frame);
+    /// The solver took the steps of this frame, and cuts, if any, are made. Loads (Solver::endFrame) are this
+    /// guard's to take.
+    void endFrame(int frame);
+    /// What tools and bodies gave in each frame, since the last call: frames up to the one two before the
+    /// last that ended, in order, and after a look or with `all` up to that one. Only `all` waits for the
+    /// GPU.
+    std::vector<FrameLoads> takeLoads(bool all = false);
 
 private:
     /// What was seen to be good, and what the watchdog knew then.
@@ -43,17 +53,21 @@ private:
     /// cuts of the list; `good` follows.
     std::optional<sim::Alarm> retrace(Good& good, std::int64_t last, int steps);
     void freeze(const sim::Alarm& alarm, const Good& good);
-    /// Takes what tools gave until `frame` from the solver.
-    void account(int frame);
+    /// Of the frame after the last one that was accounted for.
+    void account(std::vector<sim::ToolLoad> loads);
+    /// Those of all frames that ended.
+    void accountAll();
+    /// Drops what the solver has of loads.
+    void dropLoads();
 
     OrganParts& organ_;
     const sim::CutList& cuts_;
     double frameTime_; // s
     sim::Watchdog watchdog_;
     std::optional<Good> good_;
-    int seen_ = 0, accounted_ = 0; // the frames of good_ and of impulses_
+    int seen_ = 0, accounted_ = 0; // the frames of good_ and of loads_
     std::optional<sim::Alarm> alarm_;
-    std::vector<glm::dvec3> impulses_; // N s
+    std::vector<FrameLoads> loads_; // not taken yet
 };
 
 } // namespace serosa::app

@@ -74,6 +74,7 @@ void ScenePlayer::advance() {
                 continue;
             organ.solver->advance(organ.step.stepsPerFrame);
             cut(i);
+            guards_[i]->endFrame(frame_);
             if (organ.uploaded)
                 organ.uploaded->upload(organ.solver->state());
             continue;
@@ -149,8 +150,8 @@ std::vector<std::string> ScenePlayer::alarmLines() const {
     return lines;
 }
 
-std::vector<glm::dvec3> ScenePlayer::takeToolImpulses(std::size_t organ) {
-    return guards_[organ] ? guards_[organ]->takeToolImpulses(frame_) : std::vector<glm::dvec3>();
+std::vector<FrameLoads> ScenePlayer::takeLoads(std::size_t organ, bool all) {
+    return guards_[organ] ? guards_[organ]->takeLoads(all) : std::vector<FrameLoads>();
 }
 
 } // namespace serosa::app

@@ -24,7 +24,7 @@ public:
     void advance();
     /// Back to rest, frame 0.
     void reset();
-    /// All of the state, after frame() frames (reads back, stalls). Takes the tools' pending impulses.
+    /// All of the state, after frame() frames (reads back, stalls).
     sim::Snapshot snapshot();
     /// Goes on from a snapshot that belongs to the scene (app/scene_snapshot.h).
     void restore(const sim::Snapshot& snapshot);
@@ -46,8 +46,8 @@ public:
     std::optional<sim::Alarm> alarm(std::size_t organ) const;
     /// "NAME: ..." a line for each organ that is frozen.
     std::vector<std::string> alarmLines() const;
-    /// Impulses that the tools gave to an organ since the last call, N s; empty for a pose.
-    std::vector<glm::dvec3> takeToolImpulses(std::size_t organ);
+    /// What tools and bodies gave to an organ, frame by frame, as OrganGuard::takeLoads; empty for a pose.
+    std::vector<FrameLoads> takeLoads(std::size_t organ, bool all = false);
 
 private:
     /// The scene's cuts and tears of the frame that ends now.

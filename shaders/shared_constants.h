@@ -1,5 +1,5 @@
 // Constants that C++ and GLSL share: #define only, included by both.
-#define SRS_MAX_TOOLS 4
+#define SRS_MAX_TOOLS 7
 #define SRS_MAX_COLLIDERS 12 // tools and bodies
 
 // State textures (ARCHITECTURE.md, texture formats).
