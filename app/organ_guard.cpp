@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace serosa::app {
@@ -15,7 +16,7 @@ OrganGuard::OrganGuard(OrganParts& organ, const sim::CutList& cuts, double frame
 void OrganGuard::restart(int frame) {
     alarm_.reset();
     dropLoads();
-    impulses_.clear();
+    loads_.clear();
     sim::LatticeState state = organ_.solver->state(); // as the solver rounds it
     watchdog_.start(state);
     seen_ = accounted_ = frame;
@@ -27,29 +28,26 @@ void OrganGuard::restart(int frame) {
     }
 }
 
-void OrganGuard::endFrame(int frame) {
-    SEROSA_CHECK(!frozen() && frame > accounted_, "frames of a living organ, in order");
-    organ_.solver->endFrame();
-    if (const auto loads = organ_.solver->frameLoads())
-        account(*loads);
-}
-
-void OrganGuard::account(const std::vector<sim::ToolLoad>& loads) {
+void OrganGuard::account(std::vector<sim::ToolLoad> loads) {
     watchdog_.addWork(accounted_ * frameTime_, (accounted_ + 1) * frameTime_, loads);
-    FrameImpulses impulses{++accounted_, {}};
-    for (std::size_t tool = 0; tool < organ_.setup.tools.size(); ++tool)
-        impulses.impulses.push_back(loads[tool].impulse);
-    impulses_.push_back(std::move(impulses));
+    loads_.push_back({++accounted_, std::move(loads)});
 }
 
 void OrganGuard::accountAll() {
-    for (const std::vector<sim::ToolLoad>& loads : organ_.solver->flushFrames())
-        account(loads);
+    for (std::vector<sim::ToolLoad>& loads : organ_.solver->flushFrames())
+        account(std::move(loads));
 }
 
 void OrganGuard::dropLoads() {
     organ_.solver->flushFrames();
     organ_.solver->takeLoads();
+}
+
+void OrganGuard::endFrame(int frame) {
+    organ_.solver->endFrame();
+    if (auto loads = organ_.solver->frameLoads())
+        account(std::move(*loads));
+    SEROSA_CHECK(accounted_ <= frame && frame <= accounted_ + 2, "one call a frame");
 }
 
 bool OrganGuard::check(int frame) {
@@ -74,13 +72,10 @@ bool OrganGuard::check(int frame) {
     return false;
 }
 
-std::vector<FrameImpulses> OrganGuard::takeImpulses() {
-    return std::exchange(impulses_, {});
-}
-
-std::vector<FrameImpulses> OrganGuard::flushImpulses() {
-    accountAll();
-    return takeImpulses();
+std::vector<FrameLoads> OrganGuard::takeLoads(bool all) {
+    if (all && !frozen())
+        accountAll();
+    return std::exchange(loads_, {});
 }
 
 std::optional<sim::Alarm> OrganGuard::retrace(Good& good, std::int64_t last, int steps) {

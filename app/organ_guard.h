@@ -16,10 +16,10 @@ namespace serosa::app {
 
 constexpr int kFramesBetweenChecks = 10;
 
-/// What the tools gave to an organ in one frame.
-struct FrameImpulses {
-    int frame = 0;                    // the first is 1
-    std::vector<glm::dvec3> impulses; // N s, one a tool
+/// What tools and bodies gave to an organ in one frame.
+struct FrameLoads {
+    int frame = 0;
+    std::vector<sim::ToolLoad> loads; // one a collider
 };
 
 class OrganGuard {
@@ -38,11 +38,13 @@ public:
 
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }
-    /// What came of the tools' impulses since the last call, frame by frame; the solver's loads are this
+    /// The solver took the steps of this frame, and cuts, if any, are made. Loads (Solver::endFrame) are this
     /// guard's to take.
-    std::vector<FrameImpulses> takeImpulses();
-    /// The same with all of the frames that ended. Waits for the GPU.
-    std::vector<FrameImpulses> flushImpulses();
+    void endFrame(int frame);
+    /// What tools and bodies gave in each frame, since the last call: frames up to the one two before the
+    /// last that ended, in order, and after a look or with `all` up to that one. Only `all` waits for the
+    /// GPU.
+    std::vector<FrameLoads> takeLoads(bool all = false);
 
 private:
     /// What was seen to be good, and what the watchdog knew then.
@@ -54,10 +56,11 @@ private:
     /// cuts of the list; `good` follows.
     std::optional<sim::Alarm> retrace(Good& good, std::int64_t last, int steps);
     void freeze(const sim::Alarm& alarm, const Good& good);
-    /// What colliders gave in the frame after the last one that is accounted for.
-    void account(const std::vector<sim::ToolLoad>& loads);
+    /// Of the frame after the last one that was accounted for.
+    void account(std::vector<sim::ToolLoad> loads);
+    /// Those of all frames that ended.
     void accountAll();
-    /// Forgets what the solver was given so far.
+    /// Drops what the solver has of loads.
     void dropLoads();
 
     OrganParts& organ_;
@@ -65,9 +68,9 @@ private:
     double frameTime_; // s
     sim::Watchdog watchdog_;
     std::optional<Good> good_;
-    int seen_ = 0, accounted_ = 0; // the frames of good_, and of the loads that came
+    int seen_ = 0, accounted_ = 0; // the frames of good_ and of loads_
     std::optional<sim::Alarm> alarm_;
-    std::vector<FrameImpulses> impulses_; // not taken yet
+    std::vector<FrameLoads> loads_; // not taken yet
 };
 
 } // namespace serosa::app

@@ -3,6 +3,7 @@
 
 #include "app/run.h"
 
+#include "app/contact_notes.h"
 #include "app/material_lines.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -35,7 +36,6 @@ namespace {
 constexpr int kSampleEvery = 10; // frames between two samples of the energies
 constexpr int kTileWidth = 320;  // pixels of a picture on the contact sheet, at most
 constexpr int kExitInterrupted = 130;
-constexpr double kLeastToolSpacings = 1.5; // radius of a tool that the nodes resolve, in lattice spacings
 
 /// Adds the wall time of its life to a sum of seconds.
 class Stopwatch {
@@ -102,7 +102,7 @@ public:
                 restSurfaces_.push_back(deformedPositions(i));
         if (start_)
             player_.restore(*start_);
-        const int first = player_.frame();
+        const int first = firstFrame_ = player_.frame();
         record_.framesDone = first;
         SEROSA_TRY(writeFiles(first));
         sample(first);
@@ -125,8 +125,7 @@ public:
                 record_.end = "interrupted";
             progress.show(frame);
         }
-        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
-            addForces(player_.flushImpulses(i));
+        noteForces(true);
         noteAlarms();
         return {};
     }
@@ -178,22 +177,10 @@ private:
     void step(int frame) {
         Stopwatch watch(record_.times.steps);
         player_.advance();
-        const std::size_t tools = parts_.scene.tools.size();
-        if (tools > 0 && record_.solver != "pose")
-            record_.toolForces.push_back({frame * frameTime_, std::vector<glm::dvec3>(tools, glm::dvec3(0))});
-        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
-            addForces(player_.takeImpulses(i));
-    }
-
-    /// Each to the frame that it was given in: the GPU's come two frames later.
-    void addForces(const std::vector<FrameImpulses>& frames) {
-        for (const FrameImpulses& given : frames) {
-            if (record_.toolForces.empty())
-                return; // there are bodies alone
-            const std::size_t first = std::size_t(std::lround(record_.toolForces.front().time / frameTime_));
-            ToolForce& force = record_.toolForces.at(std::size_t(given.frame) - first);
-            for (std::size_t tool = 0; tool < given.impulses.size(); ++tool)
-                force.forces[tool] += given.impulses[tool] / frameTime_;
+        if (record_.solver != "pose") {
+            const std::size_t colliders = parts_.scene.tools.size() + parts_.scene.bodies.size();
+            record_.forces.push_back({frame * frameTime_, std::vector<sim::ToolLoad>(colliders)});
+            noteForces(false);
         }
     }
 
@@ -201,6 +188,19 @@ private:
     void finishSteps() {
         Stopwatch watch(record_.times.steps);
         glFinish();
+    }
+
+    /// Loads come frames later; `all`: those that are still to come, too.
+    void noteForces(bool all) {
+        for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+            for (const FrameLoads& given : player_.takeLoads(i, all)) {
+                std::vector<sim::ToolLoad>& sums =
+                    record_.forces.at(std::size_t(given.frame - firstFrame_ - 1)).means;
+                for (std::size_t c = 0; c < sums.size(); ++c) {
+                    sums[c].impulse += given.loads[c].impulse / frameTime_;
+                    sums[c].angular += given.loads[c].angular / frameTime_;
+                }
+            }
     }
 
     void sample(int frame) {
@@ -232,9 +232,9 @@ private:
     }
 
     void drawScene(int frame) {
-        render::View view{camera_, parts_.scene.light, parts_.scene.look, {}};
-        for (const sim::Tool& tool : parts_.scene.tools)
-            view.toolSpheres.emplace_back(tool.centreAt(frame * frameTime_), tool.radius);
+        const render::View view{
+            camera_, parts_.scene.light, parts_.scene.look,
+            render::drawnShapes(parts_.scene, frame * frameTime_, parts_.lowest(), parts_.highest())};
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
     }
@@ -328,8 +328,8 @@ private:
     OutputFolder& folder_;
     const sim::Snapshot* start_;
     StateFiles files_;
-    int frames_;
-    double frameTime_; // s
+    int frames_, firstFrame_ = 0; // the last one, and the one that it begins after
+    double frameTime_;            // s
     render::CameraView camera_;
     RunRecord record_;
     std::set<int> surfaceFrames_, sheetFrames_;
@@ -340,8 +340,8 @@ private:
     std::string failure_;
 };
 
-void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const OrganParts& parts,
-                   std::ostream& out) {
+void describeOrgan(const sim::Organ& organ, const OrganParts& parts, std::ostream& out,
+                   std::vector<std::string>& notes) {
     out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
         << grouped(parts.surface.file.faces.size()) << " faces\n";
     printRepair(parts.surface, out);
@@ -351,35 +351,34 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
     if (!plainTissue(organ))
         for (const MaterialLine& line : materialLines(organ, parts.lattice))
             out << "material " << line.name << ": " << line.text << "\n";
-    for (const std::string& note : materialNotes(organ, parts.lattice))
-        out << "note: " << note << "\n";
+    for (std::string& note : materialNotes(organ, parts.lattice))
+        notes.push_back(std::move(note));
     if (parts.solver)
         out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
             << shortNumber(parts.step.margin) << ")\n";
-    for (const sim::Tool& tool : scene.tools)
-        if (tool.radius < kLeastToolSpacings * parts.lattice.spacing)
-            out << "note: " << tool.name << " has a radius of " << shortNumber(1e3 * tool.radius)
-                << " mm; below " << kLeastToolSpacings << " spacings it slips between the lattice's nodes\n";
-    const std::vector<bool>& fixed = parts.setup.fixed;
-    if (parts.solver && scene.gravity != glm::dvec3(0) &&
-        std::find(fixed.begin(), fixed.end(), true) == fixed.end())
-        out << "note: no node of " << organ.name << " is fixed, and there is no floor: it falls\n";
     if (parts.binding.tornEdgesFound > 0)
         out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
             << " left after flooding\n";
 }
 
-void describeSetup(const RunParts& parts, std::ostream& out) {
+/// Says what was set up. Returns the notes among it.
+std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out) {
+    std::vector<std::string> notes;
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
-        describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
+        describeOrgan(parts.scene.organs[i], *parts.organs[i], out, notes);
+    for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
+        notes.push_back(std::move(note));
     if (parts.timesLeftOut > 0)
-        out << "note: " << parts.timesLeftOut
-            << " of the times in [output] lie after the frames asked for and are left out\n";
+        notes.push_back(std::to_string(parts.timesLeftOut) +
+                        " of the times in [output] lie after the frames asked for and are left out");
+    for (const std::string& note : notes)
+        out << "note: " << note << "\n";
     out << "context: " << gpu::contextKindName(parts.context->kind()) << ", "
         << parts.context->info().renderer << "\n"
         << std::flush;
+    return notes;
 }
 
 } // namespace
@@ -396,7 +395,7 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
     SEROSA_TRY(prepareRun(options, parts));
     if (start)
         SEROSA_TRY(checkStart(*start, options, parts));
-    describeSetup(parts, out);
+    std::vector<std::string> notes = describeSetup(parts, out);
     if (start)
         describeStart(*start, options, parts, out);
     SEROSA_TRY(folder.create());
@@ -405,6 +404,7 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
     if (start)
         run.record().from = {options.from.filename().string(), int(start->frame),
                              start->organs.front().solver};
+    run.record().notes = std::move(notes);
     run.warmUp();
     setupWatch.reset();
     const InterruptGuard interrupt;

@@ -30,6 +30,7 @@ struct RunOptions {
     bool force = false;               // write into a folder that holds something
     std::filesystem::path from;       // a snapshot to go on from; empty: from rest
     bool anySolver = false;           // let `solver` be another than that of the snapshot
+    bool hands = false;               // add the user's tools (app/hands.h), as far as there is room
 };
 
 /// Runs and writes into the output folder; says on `out` what it does. SIGINT ends it after the frame in

@@ -74,12 +74,14 @@ void writeFigures(Markup& page, const Json& summary) {
     figures.push_back({"Largest displacement", siText(moved, "m"),
                        sample && moved > 0 ? "at " + siText(figureOf(*sample, "t_s"), "s") : ""});
     const Json* strongest = nullptr;
-    for (const Json& tool : summary.at("tools"))
+    const std::vector<Json> colliders = collidersOf(summary);
+    for (const Json& tool : colliders)
         if (!strongest || figureOf(tool, "largest_force_N") > figureOf(*strongest, "largest_force_N"))
             strongest = &tool;
-    if (strongest) {
+    if (strongest) { // bodies among them
         const double force = figureOf(*strongest, "largest_force_N");
-        figures.push_back({"Largest tool force", siText(force, "N"),
+        figures.push_back({summary.at("tools").empty() ? "Largest force" : "Largest tool force",
+                           siText(force, "N"),
                            force > 0 ? strongest->at("name").get<std::string>() + ", at " +
                                            siText(timeOfLargestForce(*strongest), "s")
                                      : "no tool touched"});
@@ -117,7 +119,7 @@ double lastTime(const Json& summary) {
             last = time;
     };
     add(summary.at("energies"));
-    for (const Json& tool : summary.at("tools"))
+    for (const Json& tool : collidersOf(summary))
         add(tool.at("force"));
     return last;
 }
@@ -145,7 +147,7 @@ void writePlots(Markup& page, const Json& summary) {
     Plot force{"plot-force", "Force on the organ",
                "N",          "size of each tool\u2019s mean force over a frame" + sums,
                {},           end};
-    for (const Json& tool : summary.at("tools")) {
+    for (const Json& tool : collidersOf(summary)) {
         PlotSeries one{tool.at("name").get<std::string>(), {}, {}};
         for (const Json& sample : tool.at("force")) {
             one.times.push_back(figureOf(sample, "t_s"));
@@ -219,8 +221,8 @@ std::string runReport(const Json& summary, const RunPictures& pictures, const st
     beginSection(page, "plots", "Over time");
     writePlots(page, summary);
     page.close();
-    if (!summary.at("tools").empty()) {
-        beginSection(page, "tools", "Tools");
+    if (const std::vector<Json> colliders = collidersOf(summary); !colliders.empty()) {
+        beginSection(page, "tools", summary.contains("bodies") ? "Tools and bodies" : "Tools");
         writeToolTable(page, summary);
         page.close();
     }

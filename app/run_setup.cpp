@@ -5,6 +5,7 @@
 #include "app/material_lines.h"
 #include "app/pose.h"
 #include "app/solver_choice.h"
+#include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,6 +89,28 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     return {};
 }
 
+/// Where something is simulated and the solvers have room for them.
+void addHands(RunParts& parts) {
+    sim::Scene& scene = parts.scene;
+    double spacing = 0, young = 0;
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        if (!scene.organs[i].pose) {
+            spacing = std::max(spacing, parts.organs[i]->lattice.spacing);
+            for (std::size_t m = 0; m < scene.organs[i].tissue.materialCount(); ++m)
+                young = std::max(young, scene.organs[i].tissue.material(m).young);
+        }
+    Hands hands(spacing, glm::distance(parts.lowest(), parts.highest()), young);
+    const std::size_t tools = scene.tools.size() + hands.tools().size();
+    if (spacing == 0 || tools > SRS_MAX_TOOLS || tools + scene.bodies.size() > SRS_MAX_COLLIDERS)
+        return;
+    for (const sim::Tool& tool : hands.tools()) {
+        scene.tools.push_back(tool);
+        for (const auto& organ : parts.organs)
+            organ->setup.tools.push_back(tool);
+    }
+    parts.hands.emplace(std::move(hands));
+}
+
 Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts) {
     if (!pose) {
         SEROSA_ASSIGN(parts.solver, makeSolver(options.solver, parts.setup, options.layout));
@@ -104,6 +127,14 @@ Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts) 
 
 sim::Mapping RunParts::surfaceMapping() const {
     return scene.look.mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : scene.look.mapping;
+}
+
+std::vector<PlacedOrgan> RunParts::placedOrgans() const {
+    std::vector<PlacedOrgan> placed;
+    for (std::size_t i = 0; i < organs.size(); ++i)
+        if (!scene.organs[i].pose)
+            placed.push_back({&scene.organs[i], &organs[i]->lattice, &organs[i]->setup.fixed});
+    return placed;
 }
 
 std::vector<const sim::StateTextures*> RunParts::textures() const {
@@ -131,6 +162,9 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     SEROSA_TRY(readSceneAndSurfaces(options, parts));
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(prepareOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i]));
+    if (options.hands)
+        addHands(parts);
+    SEROSA_TRY(checkGrasps(parts.scene, parts.placedOrgans()));
     SEROSA_ASSIGN(parts.context, makeContext ? makeContext(parts.scene) : gpu::createContext(options.gl));
     for (std::size_t i = 0; i < parts.organs.size(); ++i) {
         OrganParts& organ = *parts.organs[i];

@@ -2,6 +2,8 @@
 // All that a run needs, made and checked before anything is written: scene, surface, lattice, context,
 // solver, renderer.
 
+#include "app/contact_notes.h"
+#include "app/hands.h"
 #include "app/organ_setup.h"
 #include "app/run.h"
 #include "render/surface_renderer.h"
@@ -37,6 +39,7 @@ struct RunParts {
     std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
+    std::optional<Hands> hands; // where they were asked for; their tools are the scene's last ones
     std::size_t timesLeftOut =
         0; // of surfaces_at, sheet_at and the like: after the last of the frames that were asked for
 
@@ -44,6 +47,8 @@ struct RunParts {
     RunParts(const RunParts&) = delete;
     RunParts& operator=(const RunParts&) = delete;
 
+    /// Those that are simulated.
+    std::vector<PlacedOrgan> placedOrgans() const;
     /// What the renderer draws from, one an organ.
     std::vector<const sim::StateTextures*> textures() const;
     /// Bounds of all organs at rest, m.

@@ -257,19 +257,31 @@ void writeMaterialTable(Markup& page, const Json& summary) {
     page.close().close().close();
 }
 
+std::vector<Json> collidersOf(const Json& summary) {
+    std::vector<Json> colliders = summary.at("tools");
+    for (const Json& body : summary.value("bodies", Json::array()))
+        colliders.push_back(body);
+    return colliders;
+}
+
 void writeToolTable(Markup& page, const Json& summary) {
+    const auto orDash = [](double value, const char* unit) {
+        return std::isfinite(value) ? siText(value, unit) : std::string("\u2013");
+    };
     page.open("div", {{"class", "scroll"}}).open("table", {{"class", "tools"}}).open("thead").open("tr");
-    page.element("th", {{"scope", "col"}}, "Tool").element("th", {{"scope", "col"}}, "Mode");
-    for (const char* heading : {"Radius", "Largest force", "At"})
+    for (const char* heading : {"Tool", "Shape", "Mode"})
+        page.element("th", {{"scope", "col"}}, heading);
+    for (const char* heading : {"Radius", "Largest force", "At", "Largest torque"})
         page.element("th", {{"scope", "col"}, {"class", "number"}}, heading);
     page.close().close().open("tbody");
-    for (const Json& tool : summary.at("tools")) {
+    for (const Json& tool : collidersOf(summary)) {
         page.open("tr").element("th", {{"scope", "row"}}, tool.at("name").get<std::string>());
-        page.element("td", {}, tool.at("mode").get<std::string>());
+        page.element("td", {}, tool.value("kind", "sphere"));
+        page.element("td", {}, tool.value("mode", "fixed"));
         const double time = timeOfLargestForce(tool), largest = figureOf(tool, "largest_force_N");
-        for (const std::string& value :
-             {siText(figureOf(tool, "radius_m"), "m"), siText(largest, "N"),
-              std::isfinite(time) && largest > 0 ? siText(time, "s") : std::string("\u2013")})
+        for (const std::string& value : {orDash(figureOf(tool, "radius_m"), "m"), siText(largest, "N"),
+                                         orDash(largest > 0 ? time : std::nan(""), "s"),
+                                         orDash(figureOf(tool, "largest_torque_Nm"), "N\u00A0m")})
             page.element("td", {{"class", "number"}}, value);
         page.close();
     }

@@ -31,6 +31,8 @@ double timeOfLargestForce(const nlohmann::ordered_json& tool);
 void writeOrganTables(Markup& page, const nlohmann::ordered_json& summary);
 /// A row for each material of each organ.
 void writeMaterialTable(Markup& page, const nlohmann::ordered_json& summary);
+/// Tools, then bodies.
+std::vector<nlohmann::ordered_json> collidersOf(const nlohmann::ordered_json& summary);
 void writeToolTable(Markup& page, const nlohmann::ordered_json& summary);
 void writeProgramTable(Markup& page, const nlohmann::ordered_json& summary);
 void writeTimingTable(Markup& page, const nlohmann::ordered_json& summary);

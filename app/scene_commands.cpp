@@ -1,6 +1,7 @@
 // `serosa scene check|explain|keys`.
 
 #include "app/commands.h"
+#include "app/contact_notes.h"
 #include "app/material_lines.h"
 #include "app/organ_setup.h"
 #include "app/pose.h"
@@ -19,7 +20,7 @@ namespace {
 struct Derived {
     OrganSurface surface;
     sim::Lattice lattice;
-    std::size_t fixed = 0;
+    std::vector<bool> fixed; // one flag a node
     sim::StableStep step;
 };
 
@@ -27,9 +28,7 @@ Result<Derived> derive(const sim::Scene& scene, const sim::Organ& organ) {
     Derived derived;
     SEROSA_ASSIGN(derived.surface, loadSurface(organ, scene.file));
     SEROSA_ASSIGN(derived.lattice, organLattice(organ, derived.surface.metres, scene.file));
-    SEROSA_ASSIGN(const std::vector<bool> fixed,
-                  fixedNodes(organ, derived.lattice, derived.surface.metres, scene.file));
-    derived.fixed = std::size_t(std::count(fixed.begin(), fixed.end(), true));
+    SEROSA_ASSIGN(derived.fixed, fixedNodes(organ, derived.lattice, derived.surface.metres, scene.file));
     if (organ.pose) {
         SEROSA_TRY(checkBend(derived.lattice, organ.pose->bendRadius));
     } else {
@@ -38,12 +37,21 @@ Result<Derived> derive(const sim::Scene& scene, const sim::Organ& organ) {
     return derived;
 }
 
+std::vector<PlacedOrgan> placedOrgans(const sim::Scene& scene, const std::vector<Derived>& all) {
+    std::vector<PlacedOrgan> placed;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (!scene.organs[i].pose)
+            placed.push_back({&scene.organs[i], &all[i].lattice, &all[i].fixed});
+    return placed;
+}
+
 Result<std::vector<Derived>> deriveAll(const sim::Scene& scene) {
     std::vector<Derived> all;
     for (const sim::Organ& organ : scene.organs) {
         SEROSA_ASSIGN(Derived derived, derive(scene, organ));
         all.push_back(std::move(derived));
     }
+    SEROSA_TRY(checkGrasps(scene, placedOrgans(scene, all)));
     return all;
 }
 
@@ -62,7 +70,10 @@ void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream&
         for (const std::string& mended : derived.surface.repair->lines())
             line("repair", mended);
     line("size", shortNumber(size.x) + " x " + shortNumber(size.y) + " x " + shortNumber(size.z) + " m");
-    line("lattice nodes", grouped(lattice.nodeCount()) + ", " + grouped(derived.fixed) + " of them fixed");
+    line("lattice nodes",
+         grouped(lattice.nodeCount()) + ", " +
+             grouped(std::size_t(std::count(derived.fixed.begin(), derived.fixed.end(), true))) +
+             " of them fixed");
     line("lattice cells", grouped(lattice.cells.size()));
     line("lattice spacing", shortNumber(lattice.spacing) + " m");
     for (const MaterialLine& material : materialLines(organ, lattice))
@@ -95,6 +106,8 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     if (organs.size() > 1)
         out << organs.size() << " organs, ";
     out << grouped(faces) << " faces, " << grouped(nodes) << " nodes, " << scene.tools.size() << " tools";
+    if (!scene.bodies.empty())
+        out << ", " << scene.bodies.size() << (scene.bodies.size() == 1 ? " body" : " bodies");
     if (steps > 0)
         out << ", " << steps << " steps a frame";
     out << "\n";
@@ -106,6 +119,8 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
         for (const std::string& note : materialNotes(scene.organs[i], organs[i].lattice))
             out << "note: " << note << "\n";
     }
+    for (const std::string& note : contactNotes(scene, placedOrgans(scene, organs)))
+        out << "note: " << note << "\n";
     return int(exitOk);
 }
 
@@ -127,6 +142,8 @@ Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& ou
             out << "\n" << std::setw(34) << "organ" << scene.organs[i].name << "\n";
         printDerived(scene.organs[i], organs[i], out);
     }
+    for (const std::string& note : contactNotes(scene, placedOrgans(scene, organs)))
+        out << std::setw(34) << "note" << note << "\n";
     return int(exitOk);
 }
 

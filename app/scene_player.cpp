@@ -150,12 +150,8 @@ std::vector<std::string> ScenePlayer::alarmLines() const {
     return lines;
 }
 
-std::vector<FrameImpulses> ScenePlayer::takeImpulses(std::size_t organ) {
-    return guards_[organ] ? guards_[organ]->takeImpulses() : std::vector<FrameImpulses>();
-}
-
-std::vector<FrameImpulses> ScenePlayer::flushImpulses(std::size_t organ) {
-    return guards_[organ] ? guards_[organ]->flushImpulses() : std::vector<FrameImpulses>();
+std::vector<FrameLoads> ScenePlayer::takeLoads(std::size_t organ, bool all) {
+    return guards_[organ] ? guards_[organ]->takeLoads(all) : std::vector<FrameLoads>();
 }
 
 } // namespace serosa::app

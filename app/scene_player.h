@@ -46,11 +46,8 @@ public:
     std::optional<sim::Alarm> alarm(std::size_t organ) const;
     /// "NAME: ..." a line for each organ that is frozen.
     std::vector<std::string> alarmLines() const;
-    /// What came since the last call of what the tools gave to an organ, frame by frame, each two frames
-    /// after its own at the latest; of a pose nothing. A frozen organ is given nothing any more.
-    std::vector<FrameImpulses> takeImpulses(std::size_t organ);
-    /// The same with all of the frames until now. Waits for the GPU.
-    std::vector<FrameImpulses> flushImpulses(std::size_t organ);
+    /// What tools and bodies gave to an organ, frame by frame, as OrganGuard::takeLoads; empty for a pose.
+    std::vector<FrameLoads> takeLoads(std::size_t organ, bool all = false);
 
 private:
     /// The scene's cuts and tears of the frame that ends now.

@@ -163,23 +163,56 @@ Json organsJson(const RunRecord& record) {
     return organs;
 }
 
+const char* kindName(const sim::RigidShape& shape, bool jaws) {
+    static const char* const kNames[] = {"sphere", "capsule", "box", "hook", "floor", "mesh"};
+    return jaws ? "jaws" : kNames[int(shape.kind)];
+}
+
+/// What a collider gave, into `json`.
+void addForces(const RunRecord& record, std::size_t collider, Json& json) {
+    double force = 0, torque = 0;
+    Json samples = Json::array();
+    for (const ForceSample& sample : record.forces) {
+        const sim::ToolLoad& mean = sample.means[collider];
+        force = std::max(force, glm::length(mean.impulse));
+        torque = std::max(torque, glm::length(mean.angular));
+        samples.push_back({{"t_s", sample.time}, {"N", vec(mean.impulse)}, {"Nm", vec(mean.angular)}});
+    }
+    json["largest_force_N"] = force;
+    json["largest_torque_Nm"] = torque;
+    json["force"] = std::move(samples);
+}
+
 Json toolsJson(const RunRecord& record) {
     Json tools = Json::array();
     for (std::size_t i = 0; i < record.scene.tools.size(); ++i) {
         const sim::Tool& tool = record.scene.tools[i];
-        double largest = 0;
-        Json forces = Json::array();
-        for (const ToolForce& sample : record.toolForces) {
-            largest = std::max(largest, glm::length(sample.forces[i]));
-            forces.push_back({{"t_s", sample.time}, {"N", vec(sample.forces[i])}});
-        }
-        tools.push_back({{"name", tool.name},
-                         {"mode", wordOf("tool", "mode", int(tool.mode))},
-                         {"radius_m", tool.radius},
-                         {"largest_force_N", largest},
-                         {"force", std::move(forces)}});
+        Json json = {{"name", tool.name},
+                     {"kind", kindName(tool.shape, tool.jaws)},
+                     {"mode", wordOf("tool", "mode", int(tool.mode))},
+                     {"radius_m", tool.radius}};
+        if (tool.mode == sim::ToolMode::push)
+            json["friction"] = tool.friction;
+        else if (std::isfinite(tool.gripForce))
+            json["grip_force_N"] = tool.gripForce;
+        addForces(record, i, json);
+        tools.push_back(std::move(json));
     }
     return tools;
+}
+
+Json bodiesJson(const RunRecord& record) {
+    Json bodies = Json::array();
+    for (std::size_t i = 0; i < record.scene.bodies.size(); ++i) {
+        const sim::Body& body = record.scene.bodies[i];
+        Json json = {{"name", body.name},
+                     {"kind", kindName(body.shape, false)},
+                     {"at_m", vec(body.pose.at)},
+                     {"friction", body.friction}};
+        addForces(record, record.scene.tools.size() + i, json);
+        bodies.push_back(std::move(json));
+    }
+    return bodies;
 }
 
 /// Largest resident memory of the process so far, bytes (Linux counts in KiB).
@@ -295,6 +328,10 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
         json["inverted_cells"] = record.organs.front().invertedCells;
     json["energies"] = std::move(energies);
     json["tools"] = toolsJson(record);
+    if (!scene.bodies.empty())
+        json["bodies"] = bodiesJson(record);
+    if (!record.notes.empty())
+        json["notes"] = record.notes;
     json["state_hash"] = record.stateHash();
     json["timing"] = timingJson(record);
     return json;

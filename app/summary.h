@@ -28,9 +28,11 @@ struct EnergySample {
     double largestDisplacement = 0; // m
 };
 
-struct ToolForce {
-    double time = 0;                // s: end of the frame
-    std::vector<glm::dvec3> forces; // N on the organ, mean over the frame; one a tool
+/// What tools and bodies gave to the organs in one frame.
+struct ForceSample {
+    double time = 0;                  // s: end of the frame
+    std::vector<sim::ToolLoad> means; // over the frame, one a collider: N and N m, where loads have N s and
+                                      // N m s
 };
 
 struct RunTimes { // s of wall time
@@ -73,7 +75,8 @@ struct RunRecord {
     std::string end = "complete";      // or "interrupted", "organ stopped"
     double largestDisplacement = 0;    // m, over the samples and organs
     std::vector<EnergySample> samples; // sums over the organs
-    std::vector<ToolForce> toolForces; // sums over the organs
+    std::vector<ForceSample> forces;   // sums over the organs
+    std::vector<std::string> notes;    // what was said before the first step
     RunTimes times;
 
     /// Of all organs, joined by '-' where there are several.

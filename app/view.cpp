@@ -7,6 +7,7 @@
 #include "app/progress.h"
 #include "app/run_setup.h"
 #include "app/scene_player.h"
+#include "app/view_hand.h"
 #include "app/view_panel.h"
 #include "base/check.h"
 #include "gpu/context_window.h"
@@ -65,6 +66,7 @@ public:
         bool ended = false;
         while (!ended) {
             takeEvents(window_.poll(waitTime()));
+            guideHand();
             simulate();
             act();
             draw();
@@ -109,9 +111,20 @@ private:
         }
     }
 
+    void guideHand() {
+        if (!controls_.hand && hand_.idle())
+            return;
+        const std::string said =
+            hand_.follow(controls_, cameraView(), glm::dvec2(window_.size()), player_.time());
+        if (!said.empty())
+            say(said);
+    }
+
     void frame() {
         const Clock::time_point start = Clock::now();
+        hand_.beforeFrame((player_.frame() + 1) / parts_.scene.frameRate);
         player_.advance();
+        hand_.afterFrame(player_);
         glFinish();
         smooth(readings_.stepsMs, 1e3 * secondsSince(start));
         if (const std::vector<std::string> stopped = player_.alarmLines(); stopped != readings_.stopped) {
@@ -128,6 +141,7 @@ private:
         const double elapsed = secondsSince(lastLook_);
         lastLook_ = Clock::now();
         if (controls_.restart) {
+            hand_.restart();
             player_.reset();
             readings_.stopped = player_.alarmLines();
             clock_.restart();
@@ -169,14 +183,17 @@ private:
         paceFrame_ = player_.frame();
     }
 
+    render::CameraView cameraView() const {
+        return render::makeCamera(camera_.settings(), parts_.lowest(), parts_.highest(), aspect());
+    }
+
     render::View currentView() const {
         render::View view;
-        view.camera = render::makeCamera(camera_.settings(), parts_.lowest(), parts_.highest(), aspect());
+        view.camera = cameraView();
         view.light = parts_.scene.light;
         view.look = controls_.look;
         view.wireframe = controls_.wireframe;
-        for (const sim::Tool& tool : parts_.scene.tools)
-            view.toolSpheres.emplace_back(tool.centreAt(player_.time()), tool.radius);
+        view.shapes = render::drawnShapes(parts_.scene, player_.time(), parts_.lowest(), parts_.highest());
         return view;
     }
 
@@ -220,6 +237,7 @@ private:
             save(parts_.renderer->readImage(), "picture");
         parts_.renderer->show(size_.x, size_.y);
         readings_.frame = player_.frame();
+        readings_.handForce = hand_.active() ? hand_.force() : -1;
         readings_.time = player_.time();
         readings_.stepMs = readings_.stepsPerFrame > 0 ? readings_.stepsMs / readings_.stepsPerFrame : 0;
         controls_.picture = false;
@@ -268,6 +286,7 @@ private:
     ViewControls controls_;
     ViewReadings readings_;
     ViewInput input_{controls_, camera_};
+    ViewHand hand_{parts_};
     bool wasPaused_ = false;
     int redraws_ = kRedrawsAfterEvent;
     Clock::time_point lastLook_ = Clock::now(), lastDraw_{}, paceStart_ = Clock::now();
@@ -283,21 +302,24 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
         return Error{"--out: " + options.pictures.string() + " is no folder: make it first"};
     std::unique_ptr<gpu::Window> window;
     RunParts parts; // dies first: its context's window is still there
-    SEROSA_TRY(
-        prepareRun(options.run, parts, [&](const sim::Scene& scene) -> Result<std::unique_ptr<gpu::Context>> {
-            gpu::WindowRequest request;
-            request.title = scene.organs.front().name + " - Serosa";
-            request.width = scene.output.width;
-            request.height = scene.output.height;
-            SEROSA_ASSIGN(gpu::OpenedWindow opened, gpu::openWindow(request));
-            window = std::move(opened.window);
-            return std::move(opened.context);
-        }));
+    RunOptions run = options.run;
+    run.hands = true;
+    SEROSA_TRY(prepareRun(run, parts, [&](const sim::Scene& scene) -> Result<std::unique_ptr<gpu::Context>> {
+        gpu::WindowRequest request;
+        request.title = scene.organs.front().name + " - Serosa";
+        request.width = scene.output.width;
+        request.height = scene.output.height;
+        SEROSA_ASSIGN(gpu::OpenedWindow opened, gpu::openWindow(request));
+        window = std::move(opened.window);
+        return std::move(opened.context);
+    }));
     const glm::ivec2 size = window->framebufferSize();
     if (size.x > 0 && size.y > 0)
         parts.renderer->resize(size.x, size.y);
     const InterruptGuard interrupt;
     View view(parts, *window, options, out);
+    for (const std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
+        out << "note: " << note << std::endl;
     out << "view: " << parts.scene.organs.front().name << ", " << parts.context->info().renderer << std::endl;
     return view.loop(interrupt);
 }

@@ -24,16 +24,24 @@ void ViewInput::take(const gpu::WindowEvent& event, int height, bool taken) {
 void ViewInput::mouse(const gpu::WindowEvent& event, double height, bool taken) {
     using Kind = gpu::WindowEvent::Kind;
     if (event.kind == Kind::scrolled) { // amounts, no place
-        if (!taken)
+        if (controls_.hand)
+            controls_.deeper += event.at.y;
+        else if (!taken)
             camera_.zoom(std::pow(kWheelZoom, event.at.y));
         return;
     }
     const glm::dvec2 moved = glm::dvec2(event.at.x - pointer_.x, pointer_.y - event.at.y) / height;
-    pointer_ = event.at;
+    pointer_ = controls_.pointer = event.at;
+    if (event.kind == Kind::buttonPressed && !taken && event.control) {
+        controls_.hand = event.button == gpu::MouseButton::left ? HandKind::grasp : HandKind::probe;
+        return;
+    }
     if (event.kind == Kind::buttonPressed && !taken)
         drag_ = event.button == gpu::MouseButton::left && !event.shift ? Drag::turn : Drag::move;
-    if (event.kind == Kind::buttonReleased)
+    if (event.kind == Kind::buttonReleased) {
         drag_ = Drag::none;
+        controls_.hand.reset();
+    }
     if (event.kind != Kind::moved)
         return;
     if (drag_ == Drag::turn)

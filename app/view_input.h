@@ -2,11 +2,14 @@
 // What keys and mouse do in `serosa view` (docs/view.md): to the camera at once, to the rest through switches
 // that the panel sets, too.
 
+#include "app/hands.h"
 #include "app/orbit_camera.h"
 #include "gpu/context_window.h"
 #include "sim/scene.h"
 
 #include <glm/glm.hpp>
+
+#include <optional>
 
 namespace serosa::app {
 
@@ -15,7 +18,11 @@ struct ViewControls {
     bool paused = false, wireframe = false, panel = true;
     sim::Look look;
     // Asked for once; the loop clears them.
-    int steps = 0; // frames, one by one
+    // A hand that follows the pointer, as long as a button is held.
+    std::optional<HandKind> hand;
+    glm::dvec2 pointer{0}; // screen units from the window's top left corner, y down
+    double deeper = 0;     // turns of the wheel away from the user since the last look
+    int steps = 0;         // frames, one by one
     bool restart = false, picture = false, windowPicture = false, reload = false, resetCamera = false,
          quit = false;
 };

@@ -18,6 +18,9 @@ const ImVec4 kErrorColour(1.0F, 0.45F, 0.35F, 1.0F);
 constexpr const char* kHelp = "drag         turn\n"
                               "right drag   move (or shift+drag)\n"
                               "wheel, + -   zoom\n"
+                              "ctrl+drag    hold tissue\n"
+                              "ctrl+right   push it\n"
+                              "  and wheel  deeper, nearer\n"
                               "arrows       turn; shift: move\n"
                               "c            camera of the scene\n"
                               "space . r    pause, step, restart\n"
@@ -46,6 +49,8 @@ void drawReadings(const ViewReadings& readings) {
     }
     reading("drawing", "%.2f ms", readings.drawMs);
     reading("frame, whole", "%.2f ms", readings.stepsMs + readings.drawMs);
+    if (readings.handForce >= 0)
+        reading("hand", "%.3f N", readings.handForce);
     if (readings.realTime > 0)
         reading("real time", "x %.2f", readings.realTime);
     else

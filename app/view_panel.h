@@ -18,6 +18,7 @@ struct ViewReadings {
     double stepsMs = 0;               // all steps of a frame
     double drawMs = 0;                // one picture
     double realTime = 0;              // simulated time over wall time, lately; 0 while paused
+    double handForce = -1;            // N, of the hand that is in the scene; < 0: none is
     bool software = false;            // the CPU draws
     std::vector<std::string> stopped; // a line for each organ that the watchdog froze
     std::string message;              // what happened last

@@ -16,7 +16,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/cmake/copyright DESTINATION ${CMAKE_INSTALL_
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/serosa)
 set(headers_folder ${CMAKE_INSTALL_INCLUDEDIR}/serosa)
-foreach(folder options base shaders gpu sim models render)
+foreach(folder options base shaders gpu devices sim models render)
   add_library(serosa::${folder} ALIAS serosa_${folder})
   set_target_properties(serosa_${folder} PROPERTIES EXPORT_NAME ${folder})
   install(TARGETS serosa_${folder} EXPORT serosaTargets COMPONENT development

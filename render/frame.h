@@ -9,13 +9,9 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
-#include <utility>
 #include <vector>
 
 namespace serosa::render {
-
-using Spheres = std::vector<std::pair<glm::dvec3, double>>; // centre, radius, m, world
 
 struct Frame {
     glm::mat4 clipFromLattice{1};
@@ -23,7 +19,7 @@ struct Frame {
     glm::vec2 size{1};         // pixels
     glm::vec3 toKey{0, 1, 0}, toBack{0, 1, 0};
     float key = 1, ambient = 1;
-    std::vector<glm::vec4> tools; // lattice units
+    std::vector<glm::vec4> shades; // balls that keep light off the tissue: centre, radius, lattice units
     glm::vec4 section{0}; // plane, lattice units: the surface is drawn where it is positive; 0: all is
 
     void setLight(gpu::Program& program) const {
@@ -34,7 +30,7 @@ struct Frame {
 
 /// Products are formed in double: an organ may lie metres from the origin and be drawn to micrometres.
 inline Frame makeFrame(const sim::Lattice& lattice, const CameraView& camera, const sim::Light& light,
-                       const sim::Look& look, const Spheres& tools, int width, int height) {
+                       const sim::Look& look, int width, int height) {
     glm::dmat4 worldFromLattice(lattice.spacing);
     worldFromLattice[3] = glm::dvec4(lattice.origin, 1);
     const glm::dmat4 latticeAxes =
@@ -56,8 +52,6 @@ inline Frame makeFrame(const sim::Lattice& lattice, const CameraView& camera, co
         frame.section =
             glm::vec4(glm::vec3(kept), float(-glm::dot(kept, lattice.toLattice(*look.sectionAt))));
     }
-    for (const auto& [centre, radius] : tools)
-        frame.tools.emplace_back(lattice.toLattice(centre), radius / lattice.spacing);
     return frame;
 }
 

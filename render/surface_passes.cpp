@@ -190,10 +190,10 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
         program.set("u_colour", glm::vec4(glm::sqrt(bare), 1));
     frame.setLight(program);
     std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
-    for (std::size_t i = 0; i < tools.size() && i < frame.tools.size(); ++i)
-        tools[i] = frame.tools[i];
+    for (std::size_t i = 0; i < tools.size() && i < frame.shades.size(); ++i)
+        tools[i] = frame.shades[i];
     program.set("u_tools", std::span<const glm::vec4>(tools));
-    program.set("u_toolCount", int(std::min(tools.size(), frame.tools.size())));
+    program.set("u_toolCount", int(std::min(tools.size(), frame.shades.size())));
     return program;
 }
 

@@ -8,7 +8,7 @@
 #include "render/picture_target.h"
 #include "render/surface_passes.h"
 #include "render/surface_vertices.h"
-#include "render/tool_spheres.h"
+#include "render/tool_renderer.h"
 #include "sim/pieces.h"
 
 namespace serosa::render {
@@ -35,7 +35,7 @@ struct DrawnOrgan {
 
 struct SurfaceRenderer::Impl {
     std::vector<DrawnOrgan> organs; // at least one
-    ToolSpheres tools;
+    ToolRenderer tools;
     gpu::Program backdrop;
     gpu::VertexArray empty;
     PictureTarget target;
@@ -70,7 +70,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
                                                 const SurfaceBinding& binding,
                                                 const sim::StateTextures& state, int width, int height) {
     SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
-    SEROSA_ASSIGN(ToolSpheres tools, ToolSpheres::create());
+    SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
     auto impl = std::make_unique<Impl>(Impl{{},
                                             std::move(tools),
@@ -91,11 +91,15 @@ Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::Triangl
 void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     Impl& in = *impl_;
     SEROSA_CHECK(states.size() == in.organs.size(), "one state an organ");
-    const Spheres tools = view.look.tools ? view.toolSpheres : Spheres{};
     std::vector<Frame> frames; // in the units of each lattice, of one view
-    for (const DrawnOrgan& organ : in.organs)
-        frames.push_back(makeFrame(organ.placement, view.camera, view.light, view.look, tools,
-                                   in.target.width(), in.target.height()));
+    for (const DrawnOrgan& organ : in.organs) {
+        frames.push_back(makeFrame(organ.placement, view.camera, view.light, view.look, in.target.width(),
+                                   in.target.height()));
+        for (const DrawnShape& drawn : view.shapes)
+            if (view.look.tools && drawn.shape.kind == sim::ShapeKind::sphere)
+                frames.back().shades.emplace_back(organ.placement.toLattice(drawn.pose.at),
+                                                  drawn.shape.radius / organ.placement.spacing);
+    }
     in.target.begin();
     glDisable(GL_DEPTH_TEST);
     in.backdrop.set("u_size", frames[0].size);
@@ -110,7 +114,8 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     for (std::size_t i = 0; i < in.organs.size() && view.look.surface; ++i)
         in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    in.tools.draw(frames[0]);
+    if (view.look.tools)
+        in.tools.draw(frames[0], in.organs[0].placement, view.shapes);
     for (std::size_t i = 0; i < in.organs.size() && view.look.lattice; ++i)
         in.organs[i].lattice.draw(*states[i], frames[i],
                                   !core && view.look.colour == sim::SurfaceColour::dynamicNormal
@@ -145,18 +150,19 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
         SEROSA_ASSIGN(gpu::Program lattice, LatticeOverlay::compile(library));
         lattices.push_back(std::move(lattice));
     }
-    SEROSA_ASSIGN(gpu::Program tools, ToolSpheres::compile(library));
+    SEROSA_ASSIGN(ToolRenderer::Programs tools, ToolRenderer::compile(library));
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(library));
     const auto exchange = [&] {
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             std::swap(impl_->organs[i].surface.programs(), surfaces[i]);
             std::swap(impl_->organs[i].lattice.program(), lattices[i]);
         }
-        std::swap(impl_->tools.program(), tools);
+        std::swap(impl_->tools.programs(), tools);
         std::swap(impl_->backdrop, backdrop);
     };
     exchange();
-    std::vector<gpu::Program*> all = {&impl_->tools.program(), &impl_->backdrop};
+    std::vector<gpu::Program*> all = {&impl_->tools.programs().tool, &impl_->tools.programs().floor,
+                                      &impl_->backdrop};
     for (DrawnOrgan& organ : impl_->organs) {
         all.push_back(&organ.lattice.program());
         for (auto& [key, program] : organ.surface.programs())
@@ -167,9 +173,12 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
 
     View rehearsal = view;
     rehearsal.look.surface = rehearsal.look.lattice = rehearsal.look.tools = true;
-    if (rehearsal.toolSpheres.empty())
-        rehearsal.toolSpheres.emplace_back(impl_->organs[0].placement.origin,
-                                           impl_->organs[0].placement.spacing);
+    const sim::Lattice& place = impl_->organs[0].placement;
+    for (const Finish finish : {Finish::steel, Finish::floor}) {
+        DrawnShape shape{{}, {place.origin, {1, 0, 0, 0}}, finish, place.spacing};
+        shape.shape.kind = finish == Finish::floor ? sim::ShapeKind::halfSpace : sim::ShapeKind::sphere;
+        rehearsal.shapes.push_back(shape);
+    }
     for (const sim::Mapping mapping :
          {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
         for (const sim::SurfaceColour colour :

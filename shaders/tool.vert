@@ -1,15 +1,21 @@
 #version 450 core
-// A tool's sphere from a unit sphere. Lattice units.
-layout(location = 0) in vec3 a_position; // unit sphere
+// A tool or body from its core and normals (render/tool_meshes.h). Lattice units.
+layout(location = 0) in vec3 a_core;
+layout(location = 1) in vec3 a_normal;
 
 uniform mat4 u_clipFromLattice;
-uniform vec4 u_sphere; // centre, radius
+uniform vec3 u_at;      // of its reference point
+uniform mat3 u_turn;
+uniform float u_scale;  // lattice units over the unit of a_core
+uniform float u_radius; // of the rounding
 
 out vec3 v_position;
 out vec3 v_normal;
+out vec3 v_own; // as a_core
 
 void main() {
-    v_normal = a_position;
-    v_position = u_sphere.xyz + u_sphere.w * a_position;
+    v_own = a_core;
+    v_normal = u_turn * a_normal;
+    v_position = u_at + (u_turn * (u_scale * a_core) + u_radius * v_normal);
     gl_Position = u_clipFromLattice * vec4(v_position, 1.0);
 }

@@ -12,6 +12,7 @@ struct Body {
     RigidShape shape;
     RigidPose pose;
     double friction = 0; // Coulomb's coefficient against tissue
+    int line = 0;        // of the scene file, for messages; 0: none
 };
 
 } // namespace serosa::sim

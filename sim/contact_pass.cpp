@@ -191,6 +191,13 @@ void ContactPass::run(StateTextures& textures, std::int64_t step) {
     using enum ContactColliders::Precision;
     if (empty())
         return;
+    const std::vector<ToolMotion>& motions = colliders_.motions(step);
+    if (std::all_of(motions.begin(), motions.end(), [](const ToolMotion& motion) {
+            return motion.mode == SRS_TOOL_NONE && !motion.opens; // a hand that rests costs nothing
+        })) {
+        recount_ = true;
+        return;
+    }
     for (gpu::Program* program : {&close_, &held_, &triangle_, &move_, &push_})
         if (*program)
             colliders_.bind(*program, step, exact, program != &move_);

@@ -44,6 +44,9 @@ const Unit kUnits[] = {
     {"deg", Dimension::angle, kDegree},
     {"rad", Dimension::angle, 1},
     {"1/s", Dimension::rate, 1},
+    {"N", Dimension::force, 1},
+    {"mN", Dimension::force, 1e-3},
+    {"kN", Dimension::force, 1e3},
 };
 
 std::string_view trimmed(std::string_view text) {
@@ -77,6 +80,8 @@ const char* dimensionName(Dimension dimension) {
         return "angle";
     case Dimension::rate:
         return "rate";
+    case Dimension::force:
+        return "force";
     }
     return "";
 }

@@ -9,11 +9,12 @@
 
 namespace serosa::sim {
 
-enum class Dimension { length, time, frequency, pressure, density, acceleration, angle, rate };
+enum class Dimension { length, time, frequency, pressure, density, acceleration, angle, rate, force };
 
 /// "length", "time", ...
 const char* dimensionName(Dimension dimension);
-/// The unit that values have inside the program: "m", "s", "Hz", "Pa", "kg/m3", "m/s2", "rad", "1/s".
+/// The unit that values have inside the program: "m", "s", "Hz", "Pa", "kg/m3", "m/s2", "rad", "1/s",
+/// "N".
 const char* siUnit(Dimension dimension);
 /// Names of all units of a dimension, the most usual one first.
 std::vector<std::string> unitNames(Dimension dimension);

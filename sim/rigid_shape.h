@@ -20,6 +20,7 @@
 namespace serosa::sim {
 
 class DistanceField; // sim/distance_field.h
+struct TriangleMesh; // sim/triangle_mesh.h
 
 /// world = at + turn * own
 struct RigidPose {
@@ -42,6 +43,7 @@ struct RigidShape {
     glm::dvec3 halfSize{0};                     // box, without the rounding
     std::shared_ptr<const DistanceField> field; // mesh: not null; in metres whatever the rest is in
     double fieldScale = 1;                      // mesh: this shape's unit over a metre
+    std::shared_ptr<const TriangleMesh> surface = nullptr; // mesh: what is drawn, metres; null: nothing is
 };
 
 } // namespace serosa::sim

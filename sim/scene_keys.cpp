@@ -94,6 +94,8 @@ std::vector<SceneKey> generalKeys() {
         plain("", "organ", Kind::tables, kAny, nullptr,
               "the organs, one to eight; they move on their own and do not touch each other yet"),
         plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most seven"),
+        plain("", "body", Kind::tables, kAny, "",
+              "what is rigid and does not move: floors, tables, bones; with the tools at most twelve"),
         plain("", "cut", Kind::tables, kAny, "", "the scripted cuts; they cut every organ that they meet"),
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
@@ -173,18 +175,91 @@ std::vector<SceneKey> organKeys() {
     return keys;
 }
 
+/// Where a shape stands: of a tool's key and of a body.
+std::vector<SceneKey> turnKeys(const char* table) {
+    return {
+        plain(table, "along", Kind::number3, kAny, "",
+              "direction of its own z axis, from its tip along its shaft: it is turned there the shortest "
+              "way from [0, 0, 1]"),
+        plain(table, "axis", Kind::number3, kAny, "",
+              "then it is turned about this direction of the world, by `angle`"),
+        quantity(table, "angle", Dim::angle, {-360, 360}, "", "right-handed about `axis`"),
+    };
+}
+
+std::vector<SceneKey> meshKeys(const char* table) {
+    return {
+        plain(table, "model", Kind::text, kAny, "",
+              "mesh: a closed surface (docs/import.md), in its own frame; at most 50,000 faces"),
+        word(table, "length_unit", unitNames(Dim::length), "", "mesh: unit of its coordinates"),
+    };
+}
+
+std::vector<SceneKey> toolKeys() {
+    std::vector<SceneKey> keys{
+        plain("tool", "name", Kind::text, kAny, "", "what messages call it"),
+        word("tool", "kind", {"sphere", "capsule", "box", "blade", "hook", "jaws", "mesh"}, "\"sphere\"",
+             "its shape (see Tools and bodies above)"),
+        quantity("tool", "radius", Dim::length, kPositive, "\"5 mm\"",
+                 "sphere, capsule, hook: of the ball, rod or wire; box: of its rounded edges, by default a "
+                 "tenth of its least side"),
+        quantity("tool", "length", Dim::length, kPositive, "",
+                 "capsule: between the middles of its round ends; blade, jaws: from the tip on; hook: of its "
+                 "straight shank, by default four times `bend`"),
+        quantity("tool", "bend", Dim::length, kPositive, "",
+                 "hook: radius of its half circle, to the wire's middle"),
+        quantity("tool", "size", Dim::length, kPositive, "", "box: its three sides", Kind::quantity3),
+        quantity("tool", "width", Dim::length, kPositive, "", "blade, jaws: along its own x axis"),
+        quantity("tool", "thickness", Dim::length, kPositive, "\"1 mm\"",
+                 "blade: along its own y axis; its edges are round"),
+        quantity("tool", "opening", Dim::length, kPositive, "",
+                 "jaws: between the pads, along its own y axis"),
+    };
+    add(keys, meshKeys("tool"));
+    add(keys,
+        {word("tool", "mode", {"push", "grasp"}, "\"push\"",
+              "push: the organ stays outside; grasp: holds the nodes inside it from its first key to its "
+              "last; jaws always grasp"),
+         plain("tool", "friction", Kind::number, kNotNegative, "0",
+               "push: Coulomb's coefficient against tissue"),
+         quantity("tool", "grip_force", Dim::force, kPositive, "",
+                  "grasp: pulled harder than this it slips; without it, it never does"),
+         plain("tool", "keys", Kind::tables, kAny, nullptr,
+               "poses with strictly increasing times; grasp needs two"),
+         quantity("tool.keys", "t", Dim::time, kNotNegative, nullptr, "time of the pose"),
+         quantity("tool.keys", "at", Dim::length, kAny, nullptr,
+                  "where its reference point is then: a sphere's or box's centre, a tip's middle",
+                  Kind::quantity3)});
+    add(keys, turnKeys("tool.keys"));
+    return keys;
+}
+
+std::vector<SceneKey> bodyKeys() {
+    std::vector<SceneKey> keys{
+        plain("body", "name", Kind::text, kAny, "", "what messages call it"),
+        word("body", "kind", {"floor", "box", "sphere", "capsule", "mesh"}, nullptr, "its shape"),
+        quantity("body", "height", Dim::length, kAny, "",
+                 "floor: all below this height is solid; not beside `at` or `normal`"),
+        quantity("body", "at", Dim::length, kAny, "",
+                 "its reference point: a sphere's or box's centre, a capsule's tip, any point of a floor",
+                 Kind::quantity3),
+        plain("body", "normal", Kind::number3, kAny, "[0, 1, 0]", "floor: points out of it"),
+        quantity(
+            "body", "radius", Dim::length, kPositive, "",
+            "sphere, capsule: required; box: of its rounded edges, by default a tenth of its least side"),
+        quantity("body", "length", Dim::length, kPositive, "",
+                 "capsule: between the middles of its round ends"),
+        quantity("body", "size", Dim::length, kPositive, "", "box: its three sides", Kind::quantity3),
+    };
+    add(keys, meshKeys("body"));
+    add(keys, turnKeys("body"));
+    add(keys,
+        {plain("body", "friction", Kind::number, kNotNegative, "0", "Coulomb's coefficient against tissue")});
+    return keys;
+}
+
 std::vector<SceneKey> otherKeys() {
     return {
-        plain("tool", "name", Kind::text, kAny, "", "what messages call it"),
-        word("tool", "kind", {"sphere"}, "\"sphere\"", "its shape"),
-        quantity("tool", "radius", Dim::length, kPositive, "\"5 mm\"", "radius of the sphere"),
-        word("tool", "mode", {"push", "grasp"}, "\"push\"",
-             "push: nodes stay outside; grasp: holds the nodes inside it from its first key to its last"),
-        plain("tool", "keys", Kind::tables, kAny, nullptr,
-              "poses with strictly increasing times; grasp needs two"),
-        quantity("tool.keys", "t", Dim::time, kNotNegative, nullptr, "time of the pose"),
-        quantity("tool.keys", "at", Dim::length, kAny, nullptr, "centre of the sphere then", Kind::quantity3),
-
         word(
             "cut", "kind", {"blade", "cauterize"}, "\"blade\"",
             "blade: an edge that cuts what it sweeps over from key to key; cauterize: burns a ball of tissue "
@@ -253,6 +328,8 @@ std::vector<SceneKey> otherKeys() {
 std::vector<SceneKey> makeKeys() {
     std::vector<SceneKey> keys = generalKeys();
     add(keys, organKeys());
+    add(keys, toolKeys());
+    add(keys, bodyKeys());
     add(keys, otherKeys());
     return keys;
 }
@@ -267,8 +344,8 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region",
-                                         "organ.fixed", "tool",           "cut"};
+    const std::set<std::string> repeated{"organ", "organ.material", "organ.region", "organ.fixed",
+                                         "tool",  "body",           "cut"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
     if (table == "cut.keys")
@@ -387,6 +464,7 @@ std::string sceneReference() {
 }
 
 static_assert(SRS_MAX_TOOLS == 7, "the meaning of [[tool]] names the limit");
+static_assert(SRS_MAX_COLLIDERS == 12, "the meaning of [[body]] names the limit");
 static_assert(SRS_MAX_MATERIALS == 16, "the meaning of [[organ.material]] names the limit");
 static_assert(SRS_CURVE_BREAKS == 8 && SRS_LIMIT_STIFFENING == 10.0,
               "the meanings of curve and strain_limit name the limits");

@@ -1,8 +1,8 @@
 // From a TOML file to a Scene. Every table is read in the order of sim/scene_keys.cpp; rules between keys
 // follow each table.
 
-#include "shaders/shared_constants.h"
 #include "sim/scene_reader_organ.h"
+#include "sim/scene_reader_tools.h"
 #include "sim/scene_table.h"
 
 #include <algorithm>
@@ -38,34 +38,6 @@ Result<std::string> readText(const fs::path& file) {
     if (stream.bad() || text.size() != size)
         return Error{file.string() + ": cannot be read"};
     return text;
-}
-
-Status readTool(const SceneSource& source, const toml::table& content, std::size_t index, Tool& tool) {
-    const std::string path = "tool[" + std::to_string(index) + "]";
-    const SceneTable table(source, "tool", path, &content);
-    SEROSA_TRY(table.checkKeys());
-    tool.name = "tool " + std::to_string(index + 1);
-    SEROSA_TRY(table.read("name", tool.name));
-    enum class Kind { sphere } kind = Kind::sphere;
-    SEROSA_TRY(table.readWord("kind", kind));
-    SEROSA_TRY(table.read("radius", tool.radius));
-    SEROSA_TRY(table.readWord("mode", tool.mode));
-    SEROSA_ASSIGN(const auto keys, table.tables("keys"));
-    if (keys.size() < (tool.mode == ToolMode::grasp ? 2u : 1u))
-        return table.errorAt("keys", tool.mode == ToolMode::grasp
-                                         ? "a grasp needs at least two: take hold, and let go"
-                                         : "needs at least one");
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-        const SceneTable keyTable(source, "tool.keys", path + ".keys[" + std::to_string(i) + "]", keys[i]);
-        SEROSA_TRY(keyTable.checkKeys());
-        ToolKey key{0, glm::dvec3(0)};
-        SEROSA_TRY(keyTable.read("t", key.time));
-        SEROSA_TRY(keyTable.read("at", key.at));
-        if (!tool.keys.empty() && key.time <= tool.keys.back().time)
-            return keyTable.errorAt("t", "is not after the key before it: times must increase");
-        tool.keys.push_back(key);
-    }
-    return {};
 }
 
 Status readCut(const SceneSource& source, const toml::table& content, std::size_t index, Cut& cut) {
@@ -208,15 +180,7 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
         scene.organs.push_back(std::move(organ));
     }
 
-    SEROSA_ASSIGN(const auto tools, top.tables("tool"));
-    if (tools.size() > SRS_MAX_TOOLS)
-        return top.errorAt("tool", "the scene has " + std::to_string(tools.size()) + " tools, at most " +
-                                       std::to_string(SRS_MAX_TOOLS) + " are possible");
-    for (std::size_t i = 0; i < tools.size(); ++i) {
-        Tool tool;
-        SEROSA_TRY(readTool(source, *tools[i], i, tool));
-        scene.tools.push_back(std::move(tool));
-    }
+    SEROSA_TRY(readToolsAndBodies(source, top, folder, scene));
     SEROSA_ASSIGN(const auto cuts, top.tables("cut"));
     for (std::size_t i = 0; i < cuts.size(); ++i) {
         Cut cut;

@@ -139,9 +139,12 @@ std::vector<Trait> setupTraits(const SolverSetup& setup) {
         bytes.u8(one ? 1 : 0);
     traits.push_back(
         {"fixed nodes", hashed(std::size_t(std::count(fixed.begin(), fixed.end(), true)), bytes)});
-    traits.push_back({"tools", std::to_string(setup.tools.size())});
+    // A hand's tools are no part of a scene, and change nothing while they rest.
+    traits.push_back({"tools", std::to_string(std::count_if(setup.tools.begin(), setup.tools.end(),
+                                                            [](const Tool& tool) { return !tool.live; }))});
     for (std::size_t i = 0; i < setup.tools.size(); ++i)
-        addTool(setup.tools[i], "tool " + std::to_string(i + 1), traits);
+        if (!setup.tools[i].live)
+            addTool(setup.tools[i], "tool " + std::to_string(i + 1), traits);
     traits.push_back({"bodies", std::to_string(setup.bodies.size())});
     for (std::size_t i = 0; i < setup.bodies.size(); ++i)
         addBody(setup.bodies[i], "body " + std::to_string(i + 1), traits);

@@ -16,6 +16,8 @@ RigidShape Tool::wholeShape() const {
 }
 
 RigidPose Tool::poseAt(double time) const {
+    if (live)
+        return live->poseAt(time);
     SEROSA_CHECK(!keys.empty(), "a tool has at least one key");
     const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                         [](double t, const ToolKey& key) { return t < key.time; });
@@ -29,6 +31,8 @@ RigidPose Tool::poseAt(double time) const {
 }
 
 bool Tool::activeAt(double time) const {
+    if (live)
+        return live->activeAt(time);
     if (mode == ToolMode::push)
         return true;
     return !keys.empty() && keys.front().time <= time && time < keys.back().time;

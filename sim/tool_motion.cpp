@@ -42,7 +42,7 @@ std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step)
                       (setup.tissue.nodeMass(setup.lattice->spacing) * setup.lattice->spacing);
         const bool active = tool.activeAt(start + tick);
         if (tool.mode == ToolMode::push) {
-            motion.mode = SRS_TOOL_PUSH;
+            motion.mode = active ? SRS_TOOL_PUSH : SRS_TOOL_NONE;
         } else {
             const bool before = step > 0 && tool.activeAt(double(step - 1) * setup.timeStep + tick);
             motion.mode = active ? SRS_TOOL_GRASP : SRS_TOOL_NONE;

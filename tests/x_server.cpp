@@ -147,12 +147,16 @@ XServer::WindowId XServer::waitForWindow(const std::string& wanted, double secon
 }
 
 void XServer::key(const std::string& name) {
+    hold(name, true);
+    hold(name, false);
+}
+
+void XServer::hold(const std::string& name, bool down) {
     Display* display = of(connection_);
     const KeyCode code = XKeysymToKeycode(display, XStringToKeysym(name.c_str()));
     if (code == 0)
         std::abort(); // the test names no key
-    XTestFakeKeyEvent(display, code, True, 0);
-    XTestFakeKeyEvent(display, code, False, 0);
+    XTestFakeKeyEvent(display, code, down ? True : False, 0);
     XSync(display, False);
 }
 

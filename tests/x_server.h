@@ -32,6 +32,8 @@ public:
 
     /// "space", "Left", "F5", "w": the names of X.
     void key(const std::string& name);
+    /// Holds a key down, or lets it go: "Control_L".
+    void hold(const std::string& name, bool down);
     /// Moves the pointer, in pixels of the screen.
     void moveTo(int x, int y);
     /// 1 left, 2 middle, 3 right, 4 and 5 the wheel.

@@ -312,6 +312,72 @@ TEST_F(View, ATourByMouseAndKeys) {
         fs::copy_file(path(name), kept / name, fs::copy_options::overwrite_existing);
 }
 
+// Ctrl and the left button take hold of the ball and pull it, ctrl and the right one push it; a hand that is
+// gone leaves no trace in what comes after a restart.
+TEST_F(View, HandsHoldAndPushTissue) {
+    const std::string expected = hashOfRun(10, "run");
+    ViewChild view(folder_.path(), {"ball.toml", "--no-panel"}, server_->display());
+    const auto window = server_->waitForWindow("ball - Serosa", kPatience);
+    ASSERT_NE(window, 0U) << view.err();
+    view.next("view: ball");
+    server_->key("space");
+    view.next("paused at frame ");
+    server_->key("r");
+    view.next("back at rest");
+    const auto steps = [&](int from, int to) {
+        for (int frame = from + 1; frame <= to; ++frame) {
+            server_->key("period");
+            view.next("frame " + std::to_string(frame));
+        }
+    };
+    const auto picture = [&] {
+        server_->key("s");
+        return image(view.next("wrote ./"));
+    };
+    const auto apart = [](const render::Image& a, const render::Image& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.rgb.size() && i < b.rgb.size(); i += 3)
+            count += std::abs(int(a.rgb[i]) - int(b.rgb[i])) > 8;
+        return count;
+    };
+    steps(0, 10);
+    const render::Image alone = picture();
+    const int x = 240, y = 180; // the middle of the window
+    std::string hash;
+    for (const auto& [button, says] :
+         {std::pair(1U, "the hand takes hold"), std::pair(3U, "the finger pushes")}) {
+        server_->key("r");
+        view.next("back at rest");
+        server_->moveTo(x, y);
+        server_->hold("Control_L", true);
+        server_->press(button);
+        view.next(says);
+        server_->moveTo(x + 60, y - 20);
+        for (int i = 0; i < 20 && button == 3; ++i) { // the wheel pushes it in
+            server_->press(4);
+            server_->release(4);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        steps(0, 10);
+        EXPECT_GT(apart(picture(), alone), 500U) << says;
+        server_->release(button);
+        server_->hold("Control_L", false);
+    }
+    server_->moveTo(3, 3);
+    server_->hold("Control_L", true);
+    server_->press(1);
+    view.next("no tissue under the pointer");
+    server_->release(1);
+    server_->hold("Control_L", false);
+    server_->key("r");
+    view.next("back at rest");
+    steps(0, 10);
+    server_->key("q");
+    EXPECT_EQ(view.wait(), 0) << view.err();
+    EXPECT_EQ(lastLine(view), std::pair(10, expected));
+    EXPECT_EQ(view.err(), "");
+}
+
 TEST_F(View, QuitsByKeyAndBySignal) {
     ViewChild byKey(folder_.path(), {"ball.toml"}, server_->display());
     ASSERT_NE(server_->waitForWindow("ball - Serosa", kPatience), 0U) << byKey.err();

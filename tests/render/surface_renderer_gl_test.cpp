@@ -161,7 +161,10 @@ TEST_F(GlSurfaceRenderer, OneToOneShowsTheCellsOutline) {
 
 TEST_F(GlSurfaceRenderer, ToolHidesWhatIsBehindItAndLatticeLinesAreThin) {
     const Image bare = draw();
-    view_.toolSpheres = {{centre_ + glm::dvec3(0, 0, 1.2 * kRadius), 0.25 * kRadius}};
+    DrawnShape ball;
+    ball.shape.radius = 0.25 * kRadius;
+    ball.pose.at = centre_ + glm::dvec3(0, 0, 1.2 * kRadius);
+    view_.shapes = {ball};
     const Image tool = draw();
     const double disc = std::numbers::pi * std::pow(0.25 * kRadius / kHeight, 2);
     EXPECT_GE(share(tool, bare, 10), 0.9 * disc);
@@ -171,6 +174,64 @@ TEST_F(GlSurfaceRenderer, ToolHidesWhatIsBehindItAndLatticeLinesAreThin) {
     const double lines = share(draw(), bare, 10);
     EXPECT_GT(lines, 0.02);
     EXPECT_LT(lines, 0.5);
+}
+
+// Beside the organ, each shape covers as much of the picture as its outline, seen along z or turned so.
+TEST_F(GlSurfaceRenderer, ToolsOfEveryShapeCoverTheirOutline) {
+    constexpr double r = 0.03 * kHeight, length = 0.2 * kHeight, pi = std::numbers::pi;
+    const Image bare = draw();
+    const auto covers = [&](const sim::RigidShape& shape, const glm::dquat& turn, double area,
+                            Finish finish) {
+        DrawnShape drawn{shape, {centre_ + kHeight * glm::dvec3(-0.4, -0.4, 0.2), turn}, finish, 0};
+        view_.shapes = {drawn};
+        const double expected = area / (kHeight * kHeight);
+        EXPECT_NEAR(share(draw(), bare, 8), expected, 0.06 * expected) << int(shape.kind);
+    };
+    const glm::dquat straight(1, 0, 0, 0),
+        up = glm::angleAxis(-pi / 2, glm::dvec3(1, 0, 0)),
+        across = glm::angleAxis(pi / 2, glm::dvec3(0, 1, 0)); // own z to y, to x
+    sim::RigidShape shape;
+    shape.radius = r;
+    shape.length = length;
+    covers(shape, straight, pi * r * r, Finish::steel);
+    shape.kind = sim::ShapeKind::capsule;
+    covers(shape, straight, pi * r * r, Finish::matte);
+    covers(shape, up, pi * r * r + 2 * r * length, Finish::matte);
+    covers(shape, across, pi * r * r + 2 * r * length, Finish::steel);
+    shape.kind = sim::ShapeKind::box;
+    shape.halfSize = {r, 2 * r, 3 * r};
+    covers(shape, straight, 4 * r * 2 * r + 2 * r * (2 * r + 4 * r) + pi * r * r, Finish::matte);
+    covers(shape, across, 4 * r * 6 * r + 2 * r * (4 * r + 6 * r) + pi * r * r, Finish::steel);
+    shape.kind = sim::ShapeKind::hook;
+    shape.bend = 3 * r;
+    covers(shape, glm::angleAxis(pi / 2, glm::dvec3(0, 1, 0)),
+           pi * r * r + 2 * r * (length + pi * shape.bend), Finish::steel);
+}
+
+// A floor hides what is below it, and is not seen from there.
+TEST_F(GlSurfaceRenderer, FloorIsSeenFromAbove) {
+    sim::Camera camera;
+    camera.projection = sim::Projection::orthographic;
+    camera.height = kHeight;
+    DrawnShape floor;
+    floor.shape.kind = sim::ShapeKind::halfSpace;
+    floor.shape.radius = 0;
+    floor.pose.at = centre_;
+    floor.finish = Finish::floor;
+    floor.extent = 4 * kHeight; // fades out beyond the picture
+    for (const bool above : {true, false}) {
+        camera.direction = {0, above ? -1 : 1, -0.2};
+        view_.camera = makeCamera(camera, mesh_.lowest(), mesh_.highest(), 1);
+        view_.shapes.clear();
+        const Image bare = draw();
+        view_.shapes = {floor};
+        const double changed = share(draw(), bare, 4);
+        const double ball = std::numbers::pi * std::pow(kRadius / kHeight, 2);
+        if (above)
+            EXPECT_GT(changed, 0.95 - ball);
+        else
+            EXPECT_EQ(changed, 0);
+    }
 }
 
 /// A twin of the fixture's ball in the same renderer, its centre moved by `by`; the picture of both.

@@ -29,7 +29,7 @@ std::vector<BadScene> badScenes() {
     for (int i = 0; i < 9; ++i)
         nineOrgans += kOrgan + "name = \"" + std::to_string(i) + "\"\n";
     std::string tooManyTools = kMinimal;
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 8; ++i)
         tooManyTools += "[[tool]]\n" + kKeys;
     return {
         {"Empty", "", "1:1", "'schema' is missing"},
@@ -104,7 +104,7 @@ std::vector<BadScene> badScenes() {
          fixed("shape = \"lowest\"\nshare = 0.1\n[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.2"), "9:9",
          "second region"},
         {"PoseWithoutRadius", kMinimal + "[organ.pose]\n", "5:", "bend_radius' is missing"},
-        {"FiveTools", tooManyTools, "", "at most 4"},
+        {"EightTools", tooManyTools, "", "at most 7"},
         {"ToolWithoutKeys", tool("radius = \"1 mm\""), "5:", "keys' is missing"},
         {"ToolEmptyKeys", tool("keys = []"), "6:8", "at least one"},
         {"ToolKind", tool("kind = \"cube\"\n" + kKeys), "6:8", "unknown value \"cube\""},

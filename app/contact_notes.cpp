@@ -1,0 +1,100 @@
+// See app/contact_notes.h. Depths are those that contact counts with (sim/contact_point.h), at rest.
+#include "app/contact_notes.h"
+
+#include "app/organ_setup.h"
+#include "sim/contact_point.h"
+#include "sim/quantity.h"
+#include "sim/shape_distance.h"
+
+#include <algorithm>
+
+namespace serosa::app {
+
+namespace {
+
+constexpr double kTouching = 0.1; // spacings: less deep counts as touching
+
+/// How deep an organ begins inside of a shape, spacings; negative where it does not.
+double depthInside(const sim::RigidShape& metres, const sim::RigidPose& pose, const sim::Lattice& lattice) {
+    const sim::RigidShape shape = sim::scaledShape(metres, 1 / lattice.spacing);
+    const double thin = sim::thinnestHalfWidth(shape);
+    double deepest = -1;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        const glm::dvec3 own = pose.toOwn(lattice.toWorld(lattice.restPosition(node))) / lattice.spacing;
+        deepest = std::max(deepest, sim::contactDepthFor(lattice.restDepth(node), thin) -
+                                        sim::shapeDistance(shape, own));
+    }
+    return deepest;
+}
+
+/// Nodes of an organ at rest that `first` holds when `second` closes, and that it wants, too.
+std::size_t sharedNodes(const sim::Tool& first, const sim::Tool& second, const PlacedOrgan& placed) {
+    const sim::RigidShape firstShape = first.wholeShape(), secondShape = second.wholeShape();
+    const double closed = first.keys.front().time, closes = second.keys.front().time;
+    const sim::RigidPose held = first.poseAt(closed), carried = first.poseAt(closes),
+                         wants = second.poseAt(closes);
+    std::size_t shared = 0;
+    for (std::size_t node = 0; node < placed.lattice->nodeCount(); ++node) {
+        if ((*placed.fixed)[node])
+            continue;
+        const glm::dvec3 own = held.toOwn(placed.lattice->toWorld(placed.lattice->restPosition(node)));
+        if (sim::shapeDistance(firstShape, own) < 0 &&
+            sim::shapeDistance(secondShape, wants.toOwn(carried.toWorld(own))) < 0)
+            ++shared;
+    }
+    return shared;
+}
+
+std::string beginsInside(const std::string& name, const std::string& organ, double metres, const char* what) {
+    return name + " begins inside of " + organ + ", " + shortNumber(1e3 * metres) + " mm deep: " + what;
+}
+
+} // namespace
+
+Status checkGrasps(const sim::Scene& scene, const std::vector<PlacedOrgan>& organs) {
+    const auto grasps = [](const sim::Tool& tool) { return tool.mode == sim::ToolMode::grasp && !tool.live; };
+    for (std::size_t i = 0; i < scene.tools.size(); ++i)
+        for (std::size_t j = 0; j < scene.tools.size(); ++j) {
+            const sim::Tool &first = scene.tools[i], &second = scene.tools[j];
+            if (i == j || !grasps(first) || !grasps(second))
+                continue;
+            const double closed = first.keys.front().time, closes = second.keys.front().time;
+            if (closes < closed || (closes == closed && j < i) || closes >= first.keys.back().time)
+                continue;
+            for (const PlacedOrgan& placed : organs)
+                if (const std::size_t shared = sharedNodes(first, second, placed); shared > 0)
+                    return Error{(scene.file.empty()
+                                      ? ""
+                                      : scene.file.string() + ":" + std::to_string(second.line) + ": ") +
+                                 second.name + " closes at " +
+                                 sim::formatQuantity(closes, sim::Dimension::time) + " on " +
+                                 grouped(shared) + " nodes of " + placed.organ->name + " that " + first.name +
+                                 " holds: a node has one holder; let " + first.name +
+                                 " let go before, or hold elsewhere"};
+        }
+    return {};
+}
+
+std::vector<std::string> contactNotes(const sim::Scene& scene, const std::vector<PlacedOrgan>& organs) {
+    std::vector<std::string> notes;
+    for (const PlacedOrgan& placed : organs) {
+        const sim::Lattice& lattice = *placed.lattice;
+        const std::string& organ = placed.organ->name;
+        for (const sim::Tool& tool : scene.tools)
+            if (tool.mode == sim::ToolMode::push && !tool.live)
+                if (const double deep = depthInside(tool.wholeShape(), tool.poseAt(0), lattice);
+                    deep > kTouching)
+                    notes.push_back(beginsInside(tool.name, organ, deep * lattice.spacing,
+                                                 "it pushes the tissue out slowly; let it begin outside"));
+        for (const sim::Body& body : scene.bodies)
+            if (const double deep = depthInside(body.shape, body.pose, lattice); deep > kTouching)
+                notes.push_back(beginsInside(body.name, organ, deep * lattice.spacing,
+                                             "it pushes the tissue out slowly; put the organ beside it"));
+        const bool free = std::find(placed.fixed->begin(), placed.fixed->end(), true) == placed.fixed->end();
+        if (free && scene.gravity != glm::dvec3(0) && scene.bodies.empty())
+            notes.push_back("no node of " + organ + " is fixed, and there is no floor: it falls");
+    }
+    return notes;
+}
+
+} // namespace serosa::app
