@@ -209,7 +209,7 @@ std::vector<ContactStage::Near> ContactStage::nearBlocks(const std::vector<Spher
     // straight in between. What is no number counts as near.
     const auto far = [](const ToolMotion& collider, const Sphere& sphere) {
         const glm::dvec3 y0 = collider.ownAtStart(sphere.centre), y1 = collider.ownAtEnd(sphere.centre);
-        return shapeDistance(collider.shape, y1) > glm::distance(y0, y1) + sphere.radius + kDeepest;
+        return shapeLowerBound(collider.shape, y1) > glm::distance(y0, y1) + sphere.radius + kDeepest;
     };
     std::vector<Near> near;
     std::vector<std::uint32_t> pushing;
@@ -265,7 +265,7 @@ std::vector<ContactStage::Candidate> ContactStage::candidates(const std::vector<
                                              glm::distance(end_[t.x], end_[t.z])),
                              depth =
                                  std::max({depth_[t.x], depth_[t.y], depth_[t.z], -0.5 * thin_[collider]});
-                if (shapeDistance(motion.shape, motion.ownAtEnd(end_[t.x])) <=
+                if (shapeLowerBound(motion.shape, motion.ownAtEnd(end_[t.x])) <=
                     edge + path + std::max(depth, double(SRS_WALL)) + kNearBy)
                     found[i].push_back({triangle, collider});
             }
@@ -369,7 +369,7 @@ void ContactStage::pushNodes(const std::vector<Near>& near) {
                 const glm::dvec3 y0 = motion.ownAtStart(start_[node]), y1 = motion.ownAtEnd(end_[node]);
                 const double path = glm::distance(y0, y1),
                              depth = contactDepthFor(depth_[node], thin_[collider]);
-                if (!(shapeDistance(motion.shape, y1) - depth < path))
+                if (!(shapeLowerBound(motion.shape, y1) - depth < path))
                     continue; // no part of the way is nearer
                 const glm::dvec3 move = pointContact({motion.shape, thin_[collider], motion.friction}, y0, y1,
                                                      depth, sweepSamples(path, thin_[collider]));

@@ -105,16 +105,23 @@ ShapeSample DistanceField::sampleInGrid(const glm::dvec3& own) const {
 ShapeSample DistanceField::sample(const glm::dvec3& own) const {
     const glm::dvec3 within = glm::clamp(own, lowest_, lowest_ + step_ * glm::dvec3(dims_ - 1));
     ShapeSample sample = sampleInGrid(within);
+    const double length = glm::length(sample.normal);
+    sample.normal = length > 1e-9 ? sample.normal / length : glm::dvec3(0, 1, 0);
     const glm::dvec3 beyond = own - within;
     const double away2 = glm::dot(beyond, beyond);
     if (away2 > 0) {
         const double near = std::max(sample.distance, 0.0);
-        sample.distance = std::sqrt(away2 + near * near);
-        sample.normal = beyond + near * sample.normal;
+        const glm::dvec3 fromSurface = beyond + near * sample.normal;
+        sample.distance = std::max(std::sqrt(away2 + near * near), near + glm::dot(sample.normal, beyond));
+        sample.normal = glm::normalize(fromSurface);
     }
-    const double length = glm::length(sample.normal);
-    sample.normal = length > 1e-9 ? sample.normal / length : glm::dvec3(0, 1, 0);
     return sample;
+}
+
+double DistanceField::lowerBound(const glm::dvec3& own) const {
+    const glm::dvec3 within = glm::clamp(own, lowest_, lowest_ + step_ * glm::dvec3(dims_ - 1));
+    const double near = sampleInGrid(within).distance, away = glm::distance(own, within);
+    return away > 0 ? std::hypot(away, std::max(near, 0.0)) : near;
 }
 
 } // namespace serosa::sim

@@ -1,9 +1,13 @@
 #pragma once
 // Signed distance to a small closed surface, sampled on a regular grid that holds it with a margin and
 // interpolated trilinearly, as a 3D texture does it. Samples are exact (sim/triangle_tree.h); between them
-// the field bends where the surface has edges, by less than a sample's spacing. Outside of the grid stands
-// what the nearest point c of the grid's box says: sqrt(|p - c|^2 + phi(c)^2). As the surface lies in the
-// box, which is convex, no distance is less, and the field is continuous.
+// the field bends where the surface has edges, by less than a sample's spacing.
+//
+// Beyond the grid stands what the nearest point c of the grid's box says. As the surface lies in the box,
+// which is convex, no distance there is less than sqrt(|p - c|^2 + phi(c)^2); and of a convex surface none is
+// less than phi(c) + n(c) (p - c). The field takes the larger: a node far under a small tool is kept off it
+// by a spacing. Of a surface that is not convex that may be too far, by 41% at most; what must not be
+// (leaving out what is far away) asks lowerBound.
 
 #include "sim/shape_distance.h"
 #include "sim/triangle_mesh.h"
@@ -23,6 +27,8 @@ public:
 
     /// \param own m
     ShapeSample sample(const glm::dvec3& own) const;
+    /// Never more than the distance, m.
+    double lowerBound(const glm::dvec3& own) const;
 
     /// m: of nine tenths of the surface, the material behind it is at least twice as thick.
     double thinnestHalfWidth() const { return thinnest_; }

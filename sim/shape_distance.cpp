@@ -75,6 +75,12 @@ double shapeDistance(const RigidShape& shape, const glm::dvec3& own) {
     return sampleShape(shape, own).distance;
 }
 
+double shapeLowerBound(const RigidShape& shape, const glm::dvec3& own) {
+    return shape.kind == ShapeKind::mesh
+               ? shape.field->lowerBound(own / shape.fieldScale) * shape.fieldScale - shape.radius
+               : sampleShape(shape, own).distance;
+}
+
 double thinnestHalfWidth(const RigidShape& shape) {
     switch (shape.kind) {
     case ShapeKind::sphere:

@@ -15,6 +15,8 @@ struct ShapeSample {
 /// \param own in the shape's frame and unit. Mesh: interpolated (sim/distance_field.h).
 ShapeSample sampleShape(const RigidShape& shape, const glm::dvec3& own);
 double shapeDistance(const RigidShape& shape, const glm::dvec3& own);
+/// Never more than the distance, for what leaves out all that is far: a mesh away from its grid is not known.
+double shapeLowerBound(const RigidShape& shape, const glm::dvec3& own);
 
 /// How far the surface lies from the middle of the shape where it is thinnest; infinity for a half-space.
 double thinnestHalfWidth(const RigidShape& shape);

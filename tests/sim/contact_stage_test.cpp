@@ -341,9 +341,10 @@ TEST(ContactStage, meshToolBehavesAsItsShape) {
     sim::Tool tool;
     tool.name = "ball";
     tool.radius = 0.008;
-    const double end = 0.05, top = lattice.toWorld({0, 3, 0}).y;
-    tool.keys = {{0, {0.0005, top + 0.0081, 0.001}}, {end, {0.0005, top + 0.005, 0.001}}};
-    double force[2], lowest[2];
+    const double end = 0.05;
+    const glm::dvec3 top = lattice.toWorld({0.15, 2, 0.3});
+    tool.keys = {{0, top + glm::dvec3(0, 0.0081, 0)}, {end, top + glm::dvec3(0, 0.005, 0)}};
+    double force[2]{}, lowest[2]{}; // N; lattice units: of the node under it
     for (const bool mesh : {false, true}) {
         if (mesh) {
             tool.shape.kind = sim::ShapeKind::mesh;
@@ -360,8 +361,8 @@ TEST(ContactStage, meshToolBehavesAsItsShape) {
         lowest[mesh] = solver->state().positions[std::size_t(lattice.nodeAt({4, 5, 4}))].y;
     }
     EXPECT_LT(force[0], -0.01);
-    EXPECT_NEAR(force[1] / force[0], 1, 0.03);
-    EXPECT_NEAR(lowest[1], lowest[0], 0.02);
+    EXPECT_NEAR(force[1] / force[0], 1, 0.01);
+    EXPECT_NEAR(lowest[1], lowest[0], 0.005);
 }
 
 // The same bytes whatever the number of threads, and the reference's result.

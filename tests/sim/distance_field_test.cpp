@@ -44,22 +44,36 @@ TEST(DistanceField, ofABoxIsWithinASampleAndOutsideNoMore) {
     const DistanceField field(test::boxMesh(-half, half));
     EXPECT_LE(std::max({field.dims().x, field.dims().y, field.dims().z}), DistanceField::kMostSamples);
     std::mt19937 random(5);
-    double last = 0;
     for (int i = 0; i < 4000; ++i) {
-        const bool far = i % 2; // beyond the grid, where it is a lower bound
-        const glm::dvec3 p = far ? randomPoint(random, 0.05)
-                                 : randomPoint(random, 1) * (half + 1.5 * field.step());
+        const bool far = i % 2; // beyond the grid
+        const glm::dvec3 p =
+            far ? randomPoint(random, 0.05) : randomPoint(random, 1) * (half + 1.5 * field.step());
         const double got = field.sample(p).distance, exact = boxDistance(p, half);
         EXPECT_LT(got, exact + 0.5 * field.step());
-        if (far)
-            EXPECT_GT(got, 0.7 * exact - field.step());
-        else
-            EXPECT_GT(got, exact - 0.9 * field.step());
-        EXPECT_EQ(got < 0, exact < 0) << (std::abs(exact) > field.step() ? "" : "may differ");
-        last = got;
+        EXPECT_GT(got, far ? 0.9 * exact - field.step() : exact - 0.9 * field.step());
+        EXPECT_LT(field.lowerBound(p), exact + 0.5 * field.step());
+        if (std::abs(exact) > field.step()) {
+            EXPECT_EQ(got < 0, exact < 0);
+        }
     }
-    EXPECT_NE(last, 0);
-    EXPECT_NEAR(field.thinnestHalfWidth(), half.z, 1e-9);
+    EXPECT_NEAR(field.thinnestHalfWidth(), half.z, 1e-4 * half.z);
+}
+
+// Not convex: a pair of bars. No bound may be more than the distance.
+TEST(DistanceField, lowerBoundHoldsForWhatIsNotConvex) {
+    sim::TriangleMesh bars = test::boxMesh({-0.01, -0.01, -0.001}, {-0.008, 0.01, 0.001});
+    test::append(bars, test::boxMesh({0.008, -0.01, -0.001}, {0.01, 0.01, 0.001}), false);
+    const DistanceField field(bars);
+    std::mt19937 random(9);
+    double worst = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const glm::dvec3 p = randomPoint(random, 0.04);
+        const double exact = std::min(boxDistance(p - glm::dvec3(-0.009, 0, 0), {0.001, 0.01, 0.001}),
+                                      boxDistance(p - glm::dvec3(0.009, 0, 0), {0.001, 0.01, 0.001}));
+        EXPECT_LT(field.lowerBound(p), exact + 0.5 * field.step());
+        worst = std::max(worst, field.sample(p).distance / std::max(exact, field.step()));
+    }
+    EXPECT_LT(worst, 1.42);
 }
 
 TEST(DistanceField, isContinuousWhereTheGridEnds) {
