@@ -207,7 +207,12 @@ TEST(DeepestPoint, isTheLeastOfAllPointsOfATriangle) {
                                                 glm::dot(w, depth));
                 }
             const double off = std::max(0.0, found.gap - least);
-            (least > -0.1 ? worst : worstInside) = std::max(least > -0.1 ? worst : worstInside, off);
+            // Beyond its grid a mesh's distance is a bound, whose least may lie elsewhere: what is far is
+            // far.
+            if (least < 0.1) {
+                double& most = least > -0.1 ? worst : worstInside;
+                most = std::max(most, off);
+            }
             sum += off;
         }
         // The mean, as edges are 1 long. Inside of a box the distance has edges that steps get caught at.
