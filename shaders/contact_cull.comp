@@ -30,7 +30,7 @@ void main() {
     for (int c = 0; c < SRS_COLLIDERS; ++c) {
         float reach = edge + kDeepest + kNearBy + relativePath(c, end[0], path + edge);
         if (modeOf(c) == SRS_TOOL_PUSH && shapeOf(c) != SRS_SHAPE_HALF_SPACE &&
-            sampleShape(c, ownAtEnd(c, end[0])).w <= reach)
+            shapeLowerBound(c, ownAtEnd(c, end[0])) <= reach)
             mask |= 1u << c;
     }
     if (mask != 0u)

@@ -28,7 +28,7 @@ void main() {
     uint mask = 0u;
     for (int c = 0; c < SRS_COLLIDERS; ++c) {
         float reach = kDeepest + kNearBy + relativePath(c, end, path);
-        if (modeOf(c) == SRS_TOOL_PUSH && sampleShape(c, ownAtEnd(c, end)).w <= reach)
+        if (modeOf(c) == SRS_TOOL_PUSH && shapeLowerBound(c, ownAtEnd(c, end)) <= reach)
             mask |= 1u << c;
     }
     if (mask == 0u)

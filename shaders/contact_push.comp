@@ -32,7 +32,7 @@ void main() {
         int c = findLSB(mask);
         real3 y0 = ownAtStart(c, real3(x)), y1 = ownAtEnd(c, real3(end));
         real path = distance(y0, y1), depth = contactDepthFor(rest, thinOf(c));
-        if (!(sampleShape(c, y1).w - depth < path)) // no part of the way is nearer
+        if (!(shapeLowerBound(c, y1) - depth < path)) // no part of the way is nearer
             continue;
         real3 exact = pointContact(c, y0, y1, depth, sweepSamples(path, thinOf(c)));
         if (exact == real3(0.0))

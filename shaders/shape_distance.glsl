@@ -47,7 +47,8 @@ uniform sampler2D t_fields;
 
 real fieldAt(ivec2 texel) { return real(texelFetch(t_fields, texel, 0).x); }
 
-real4 sampleField(int c, real3 own) {
+// `surely`: the distance is never more than it is, which beyond the grid is less near (DistanceField::lowerBound).
+real4 sampleField(int c, real3 own, bool surely) {
     real spacing = b_collider[c].halfSize.x, scale = b_collider[c].halfSize.y;
     real3 lowest = b_collider[c].middle.xyz;
     ivec3 dims = ivec3(b_collider[c].kind.zw, b_collider[c].field.x);
@@ -70,15 +71,18 @@ real4 sampleField(int c, real3 own) {
     real value = mix(mixedY.x, mixedY.y, share.z) * scale;
     real3 gradient = real3(mix(slopesX.x, slopesX.y, share.z), mix(along.y - along.x, along.w - along.z, share.z),
                          mixedY.y - mixedY.x) * (scale / spacing);
+    real len = length(gradient);
+    gradient = len > kOnCore ? gradient / len : real3(0.0, 1.0, 0.0);
     real3 beyond = own - within; // sim/distance_field.h
     real away2 = dot(beyond, beyond);
     if (away2 > 0.0) {
         real near = max(value, 0.0);
         value = sqrt(away2 + near * near);
-        gradient = beyond + near * gradient;
+        if (!surely)
+            value = max(value, near + dot(gradient, beyond));
+        gradient = normalize(beyond + near * gradient);
     }
-    real len = length(gradient);
-    return real4(len > kOnCore ? gradient / len : real3(0.0, 1.0, 0.0), value);
+    return real4(gradient, value);
 }
 #endif
 
@@ -103,7 +107,16 @@ real4 sampleShape(int c, real3 own) {
 #endif
 #if SRS_MEETS(SRS_SHAPE_MESH)
     if (shape == SRS_SHAPE_MESH)
-        return sampleField(c, own) - real4(0.0, 0.0, 0.0, radius);
+        return sampleField(c, own, false) - real4(0.0, 0.0, 0.0, radius);
 #endif
     return aroundCore(own, radius);
+}
+
+/// Never more than the distance, for what leaves out all that is far.
+real shapeLowerBound(int c, real3 own) {
+#if SRS_MEETS(SRS_SHAPE_MESH)
+    if (shapeOf(c) == SRS_SHAPE_MESH)
+        return sampleField(c, own, true).w - b_collider[c].size.x;
+#endif
+    return sampleShape(c, own).w;
 }
