@@ -59,7 +59,7 @@
 // Contact on the GPU (sim/contact_pass.h): lists of a step
 #define SRS_LIST_NEAR 0       // nodes near a collider
 #define SRS_LIST_CANDIDATES 1 // boundary triangles near one
-#define SRS_LIST_AGAIN 2      // the same for the second round: no groups where the first asked for nothing
+#define SRS_LIST_AGAIN 2      // the same for later rounds: no groups where the first asked for nothing
 #define SRS_LIST_MOVERS 3     // nodes that triangles ask to move, a list a round
 #define SRS_CONTACT_LISTS (SRS_LIST_MOVERS + SRS_CONTACT_ITERATIONS)
 

@@ -11,12 +11,12 @@
 
 namespace serosa::sim {
 
-static_assert(SRS_CONTACT_ITERATIONS <= 2, "a second round begins where the first asked for something");
+static_assert(SRS_CONTACT_ITERATIONS <= 4, "two bits of a stamp say which round");
 static_assert(SRS_MAX_COLLIDERS <= 16 && SRS_MAX_TOOLS <= int(SRS_HELD_MASK), "bits for each");
 
 namespace {
 
-constexpr std::uint32_t kStamps = 1u << 27; // contact_near.comp: of steps
+constexpr std::uint32_t kStamps = 1u << 26; // of steps; with the round below 2^28 (contact_triangles.comp)
 
 // As in shaders/contact_nodes.glsl, contact_faces.glsl and contact_work.glsl.
 struct GpuNode {
@@ -266,7 +266,7 @@ void ContactPass::runPushes(const StateTextures& textures, int set) {
     }
     wait(GL_COMMAND_BARRIER_BIT);
     for (int round = 0; round < SRS_CONTACT_ITERATIONS && triangles; ++round) {
-        const unsigned stamp = unsigned(stamp_) * 2 + unsigned(round);
+        const unsigned stamp = unsigned(stamp_) * 4 + unsigned(round);
         triangle_.set("u_round", round).set("u_stamp", stamp);
         triangle_.dispatchIndirect(work_, list(round == 0 ? SRS_LIST_CANDIDATES : SRS_LIST_AGAIN));
         wait(GL_COMMAND_BARRIER_BIT);
