@@ -12,7 +12,7 @@ layout(rgba32f) uniform readonly restrict image2D i_start;     // positions when
 layout(rgba32f) uniform readonly restrict image2D i_positions; // and where forces alone take them
 layout(std430) writeonly restrict buffer b_nearList { uvec2 b_near[]; }; // node, colliders
 layout(std430) writeonly restrict buffer b_listed { uint b_listedIn[]; }; // by node: the last step that listed it
-uniform uint u_step; // its number below 2^27, never 0
+uniform uint u_step; // its number below 2^26, never 0
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

@@ -11,12 +11,12 @@
 
 namespace serosa::sim {
 
-static_assert(SRS_CONTACT_ITERATIONS <= 4, "two bits of a stamp");
+static_assert(SRS_CONTACT_ITERATIONS <= 4, "two bits of a stamp say which round");
 static_assert(SRS_MAX_COLLIDERS <= 16 && SRS_MAX_TOOLS <= int(SRS_HELD_MASK), "bits for each");
 
 namespace {
 
-constexpr std::uint32_t kStamps = 1u << 26; // contact_near.comp: of steps
+constexpr std::uint32_t kStamps = 1u << 26; // of steps; with the round below 2^28 (contact_triangles.comp)
 
 // As in shaders/contact_nodes.glsl, contact_faces.glsl and contact_work.glsl.
 struct GpuNode {
