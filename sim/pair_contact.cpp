@@ -133,14 +133,14 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
             const glm::dvec3 apart = p - closest.point;
             if (!(glm::dot(apart, apart) < distance2))
                 return;
-            const glm::dvec3 normal = weighted(closest.weights, normals_, t);
-            if (glm::dot(normal, normals_[node]) >= 0 || (&other == &own && isNear(node, t)))
+            const glm::dvec3 there = weighted(closest.weights, normals_, t);
+            if (!(glm::dot(there, normals_[node]) < 0) || (&other == &own && isNear(node, t)))
                 return;
             found = true;
             distance2 = glm::dot(apart, apart);
             best.corners = t;
             best.weights = closest.weights;
-            best.normal = glm::normalize(normal);
+            best.normal = glm::normalize(there - normals_[node]);
             best.gap = glm::dot(best.normal, apart);
         });
         if (!found)
@@ -169,8 +169,10 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
 void PairContacts::find(const CoupledMotion& motion) {
     placeSkin(group_, motion.positions, offsets_, normals_);
     points_.resize(group_.nodeCount());
-    for (std::size_t i = 0; i < points_.size(); ++i)
+    for (std::size_t i = 0; i < points_.size(); ++i) {
         points_[i] = motion.positions[i] + offsets_[i];
+        normals_[i] *= group_.flatness[i];
+    }
     for (std::size_t o = 0; o < group_.organs.size(); ++o) {
         const CoupledOrgan& organ = group_.organs[o];
         double fastest2 = 0;

@@ -5,8 +5,10 @@
 //
 // Which triangle. Node a, on the skin at p_a with normal n_a, meets the closest point of those triangles of
 // the other skin whose normal there is against n_a, n . n_a < 0: it can only come through a skin from
-// outside, however thin the other organ is. n is interpolated between the triangle's corners, so that it does
-// not jump on an edge. Of its own organ a node leaves out triangles near it along the springs.
+// outside, however thin the other organ is. n is the mean of -n_a and the normals of the triangle's corners
+// by their weights, each weighed by how flat the skin is there: smooth skins have one normal, what an edge
+// lies on says what the edge's is, and nothing jumps between triangles. Of its own organ a node leaves out
+// triangles near it along the springs.
 //
 // When. The step is looked at in K = ceil(fastest motion / half a spacing) parts. At the start s of a part
 // the gap is g = n . (p_a - p_b); the node touches in it if the motion along n against the triangle closes
@@ -67,9 +69,6 @@ public:
     const std::vector<PairContact>& contacts() const { return contacts_; }
 
 private:
-    struct Skin { // of the step, one a node
-        std::vector<glm::dvec3> points, normals;
-    };
     void find(const CoupledMotion& motion);
     std::optional<PairContact> touch(std::uint32_t node, std::uint32_t organ,
                                      const CoupledMotion& motion) const;
@@ -77,7 +76,7 @@ private:
 
     const CoupledGroup& group_;
     double friction_;
-    std::vector<glm::dvec3> offsets_, normals_, points_; // one a node
+    std::vector<glm::dvec3> offsets_, normals_, points_; // one a node; normals times their flatness
     std::vector<SkinBoxes> boxes_;                       // one an organ
     std::vector<double> fastest_;                        // one an organ: longest increment of its skin
     std::vector<PairContact> contacts_;

@@ -4,6 +4,7 @@
 #include "base/check.h"
 #include "shaders/shared_constants.h"
 #include "sim/cell_volumes.h"
+#include "sim/node_depths.h"
 #include "sim/pieces.h"
 #include "sim/tissue_field.h"
 #include "sim/triangle_tree.h"
@@ -30,7 +31,7 @@ struct RestSkin {
     std::vector<std::uint32_t> nodes;  // ascending
     std::vector<glm::uvec3> triangles; // over `nodes`
     std::vector<glm::dvec3> normals, points;
-    std::vector<double> depths, thickness;
+    std::vector<double> depths, thickness, flatness;
 };
 
 /// Sums of a value over each triangle, at its three nodes.
@@ -64,10 +65,18 @@ void findNormals(RestSkin& skin, const std::vector<glm::dvec3>& lattice) {
     for (int round = 0; round <= kRounds; ++round) {
         for (std::size_t i = 0; i < skin.nodes.size(); ++i)
             skin.points[i] = lattice[i] + skin.depths[i] * skin.normals[i];
-        if (round == kRounds)
-            break;
         const std::vector<glm::dvec3> areas =
             gather(skin, [&](const glm::uvec3& t) { return areaNormal(skin.points, t); });
+        if (round == kRounds) {
+            const std::vector<glm::dvec3> sizes = gather(skin, [&](const glm::uvec3& t) {
+                return glm::dvec3(glm::length(areaNormal(skin.points, t)), 0, 0);
+            });
+            for (std::size_t i = 0; i < skin.nodes.size(); ++i) {
+                const double even = std::min(1.0, glm::length(areas[i]) / std::max(sizes[i].x, 1e-9));
+                skin.flatness.push_back(1 / ((1.01 - even) * (1.01 - even)));
+            }
+            break;
+        }
         for (std::size_t i = 0; i < skin.nodes.size(); ++i)
             skin.normals[i] = unit(areas[i] + kKeep * skin.normals[i], skin.normals[i]);
     }
@@ -136,7 +145,8 @@ RestSkin restSkin(const Lattice& lattice, const std::vector<std::uint32_t>& conn
         place[node] = std::int32_t(skin.nodes.size());
         skin.nodes.push_back(node);
         points.push_back(lattice.restPosition(node));
-        skin.depths.push_back(outer[node] ? lattice.restDepth(node) : 0); // a cut lays bare nodes themselves
+        // A cut lays bare nodes themselves.
+        skin.depths.push_back(outer[node] ? depthOfContact(lattice.restDepth(node)) : 0);
     }
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     for (std::size_t i = 0; i < boundary.size(); ++i) {
@@ -247,6 +257,7 @@ void addOrgan(const CoupledMember& member, const glm::dvec3& origin, CoupledGrou
         group.restNormal.push_back(ofSkin ? skin.normals[i] : glm::dvec3(0));
         group.depth.push_back(ofSkin ? organ.scale * skin.depths[i] : 0);
         group.thickness.push_back(ofSkin ? organ.scale * skin.thickness[i] : 0);
+        group.flatness.push_back(ofSkin ? skin.flatness[i] : 0);
         std::array<std::int32_t, 6> beside{-1, -1, -1, -1, -1, -1};
         for (int d = 0; d < 6 && ofSkin; ++d)
             if (connections[node] >> d & 1u)

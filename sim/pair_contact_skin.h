@@ -56,6 +56,7 @@ struct CoupledGroup {
     std::vector<glm::dvec3> restNormal;
     std::vector<double> depth;     // below the skin
     std::vector<double> thickness; // of the organ below the skin at rest; at most 4 spacings
+    std::vector<double> flatness;  // weight: 1e4 where the skin is flat at rest, 14 on a right edge
     std::vector<std::array<std::int32_t, 6>> beside; // nodes at +x, -x, +y, -y, +z, -z; -1: none
 
     std::vector<glm::uvec3> triangles; // over nodes, outward; near ones one after another

@@ -123,17 +123,28 @@ void ThreadHold::solve(std::int64_t step, CoupledMotion& motion, std::vector<Thr
             if (!holds(i))
                 continue;
             const ThreadSpan& span = spans_[i];
-            const glm::dvec3 between = span.of(motion.positions) + span.of(motion.increments);
-            const double distance = glm::length(between), length = lengthAt(i, end) / group_.length;
+            const glm::dvec3 began = span.of(motion.positions), now = began + span.of(motion.increments);
+            const double distance = glm::length(now), length = lengthAt(i, end) / group_.length;
             double answer = 0; // 1/mass of the span
             for (std::size_t k = 0; k < span.nodes.size(); ++k)
                 answer += span.weights[k] * span.weights[k] * motion.inverseMass[span.nodes[k]];
             if (!(distance > 1e-9) || !(answer > 0))
                 continue;
-            double pull = given[i] + (distance - length) / answer;
+            glm::dvec3 direction = now / distance;
+            double shift = distance - length;
+            if (glm::dot(began, now) > 0.5 * glm::length(began) * distance) {
+                const glm::dvec3 first = glm::normalize(began);
+                const double along = glm::dot(now, first),
+                             inside = along * along - distance * distance + length * length;
+                if (inside >= 0) {
+                    direction = first;
+                    shift = along - std::sqrt(inside);
+                }
+            }
+            double pull = given[i] + shift / answer;
             if (!span.thread.clip)
                 pull = std::max(pull, 0.0);
-            const glm::dvec3 impulse = (pull - given[i]) / distance * between; // from the first end on
+            const glm::dvec3 impulse = (pull - given[i]) * direction; // from the first end on
             given[i] = pull;
             for (std::size_t k = 0; k < span.nodes.size(); ++k)
                 motion.increments[span.nodes[k]] -=

@@ -1,13 +1,16 @@
 #pragma once
 // Threads and clips at work (sim/thread.h): after each step, each keeps its two ends together by a constraint
-// on positions (Macklin, Mueller & Chentanez 2016, XPBD, without compliance), and breaks where that takes
-// more force than it carries. For CPU solvers, in double; shaders/thread_hold.comp is its twin on the GPU.
+// on positions (as SHAKE: Ryckaert, Ciccotti & Berendsen 1977, Numerical Integration of the Cartesian
+// Equations of Motion of a System with Constraints), and breaks where that takes more force than it carries.
+// For CPU solvers, in double; shaders/thread_hold.comp is its twin on the GPU.
 //
 // An end is a material point: weights over the nodes of the cell that holds its place at rest, or, outside of
-// all cells, of the nearest triangle of the lattice's boundary. With P, Q the ends after the step, L the
-// length that is asked for, n = (P - Q)/|P - Q|: the impulse along n that makes |P - Q| = L, shared by the
-// weights, equal and opposite, so that momentum and angular momentum are kept. A suture only pulls. Threads
-// are taken in their order, SRS_THREAD_SWEEPS times; each adds to the impulse that it has given in the step.
+// all cells, of the nearest triangle of the lattice's boundary. With P, Q the ends, L the length that is
+// asked for, and n = (P - Q)/|P - Q| as the step began: the impulse along n that makes |P - Q| = L at its
+// end, shared by the weights, equal and opposite, so that momentum and angular momentum are kept (a span that
+// turns so far in one step that no impulse along n does it takes n as the step ended). A suture only pulls.
+// Threads are taken in their order, SRS_THREAD_SWEEPS times; each adds to the impulse that it has given in
+// the step.
 //
 // L goes from the distance at the time when the thread is tied to its length, evenly within `tightening`, but
 // by no more than SRS_THREAD_PULL spacings a step. The force is the step's impulse over its time, averaged
