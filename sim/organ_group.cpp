@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 #include "sim/pair_contact.h"
+#include "sim/pair_contact_pass.h"
 
 #include <algorithm>
 #include <optional>
@@ -140,8 +141,11 @@ Result<std::unique_ptr<OrganGroup>> OrganGroup::create(const std::vector<GroupMe
                          (member.solver->textures() != nullptr) == textures,
                      "one time step and one kind of solver");
     std::unique_ptr<OrganGroup> group(new OrganGroup(members, settings));
-    SEROSA_CHECK(!textures, "TODO");
-    group->coupling_ = std::make_unique<CpuCoupling>(members, settings);
+    if (textures) {
+        SEROSA_ASSIGN(group->coupling_, makeTextureCoupling(members, settings));
+    } else {
+        group->coupling_ = std::make_unique<CpuCoupling>(members, settings);
+    }
     return group;
 }
 

@@ -126,7 +126,7 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
         PairContact best;
         double distance2 = reach * reach;
         bool found = false;
-        boxes_[organ].meeting({p - reach, p + reach}, [&](std::size_t i) {
+        boxes_[organ].near(p, distance2, [&](std::size_t i) {
             const glm::uvec3 t = group_.triangles[other.firstTriangle + i];
             const auto corner = [&](int k) { return points_[t[k]] + s * motion.increments[t[k]]; };
             const TrianglePoint closest = closestPointOnTriangle(p, corner(0), corner(1), corner(2));
@@ -134,7 +134,8 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
             if (!(glm::dot(apart, apart) < distance2))
                 return;
             const glm::dvec3 there = weighted(closest.weights, normals_, t);
-            if (!(glm::dot(there, normals_[node]) < 0) || (&other == &own && isNear(node, t)))
+            const double most = -SRS_PAIR_AGAINST * glm::length(there) * group_.flatness[node];
+            if (!(glm::dot(there, normals_[node]) < most) || (&other == &own && isNear(node, t)))
                 return;
             found = true;
             distance2 = glm::dot(apart, apart);
@@ -153,9 +154,10 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
             (group_.thickness[node] + glm::dot(best.weights, glm::dvec3(group_.thickness[best.corners.x],
                                                                         group_.thickness[best.corners.y],
                                                                         group_.thickness[best.corners.z])));
-        const double farthest =
-            gap < 0 ? std::min(deepest, thin) : glm::length(against) / parts + SRS_PAIR_SLACK * other.scale;
-        if (!(distance <= farthest) || !(gap + closing / parts < 0))
+        const double slack = SRS_PAIR_SLACK * other.scale,
+                     farthest = gap < 0 ? std::min(deepest, thin) : glm::length(against) / parts + slack;
+        const bool aside = distance > slack && std::abs(gap) < 0.7 * distance;
+        if (!(distance <= farthest) || aside || !(gap + closing / parts < 0))
             continue;
         best.node = node;
         best.organ = organ;

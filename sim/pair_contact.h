@@ -4,7 +4,7 @@
 // shaders/pair_find.comp and pair_solve.comp are its twin on the GPU.
 //
 // Which triangle. Node a, on the skin at p_a with normal n_a, meets the closest point of those triangles of
-// the other skin whose normal there is against n_a, n . n_a < 0: it can only come through a skin from
+// the other skin whose normal there is against n_a, n . n_a < -0.1: it can only come through a skin from
 // outside, however thin the other organ is. n is the mean of -n_a and the normals of the triangle's corners
 // by their weights, each weighed by how flat the skin is there: smooth skins have one normal, what an edge
 // lies on says what the edge's is, and nothing jumps between triangles. Of its own organ a node leaves out
@@ -14,9 +14,10 @@
 // the gap is g = n . (p_a - p_b); the node touches in it if the motion along n against the triangle closes
 // the gap. Then at the end of the step n . (p_a - p_b) >= 0 is required; of a gap that is negative at s, that
 // it closes by SRS_EJECTION spacings a step. The plane is that at s, so that what slides stays fast, and what
-// comes is stopped, not thrown back: no energy is given but to what is pushed out. A node further inside than
-// SRS_PAIR_DEEPEST spacings, or than 0.45 of both organs' thickness there (then it may be outside, on the far
-// side of both), is let alone.
+// comes is stopped, not thrown back: no energy is given but to what is pushed out. What lies beside the skin
+// rather than over or under it (the gap is less than 0.7 of the distance), does not touch. A node further
+// inside than SRS_PAIR_DEEPEST spacings, or than 0.45 of both organs' thickness there (then it may be
+// outside, on the far side of both), is let alone.
 //
 // Solve. All constraints at once, by projected Jacobi iteration with mass splitting (Tonge, Benevolenski &
 // Voroshilov 2012, Mass Splitting for Jitter-Free Parallel Rigid Body Simulation): a node of c constraints

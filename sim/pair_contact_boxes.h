@@ -24,6 +24,11 @@ struct Box {
         low = glm::min(low, point);
         high = glm::max(high, point);
     }
+    /// Squared distance of a point, 0 inside.
+    double distance2(const glm::dvec3& point) const {
+        const glm::dvec3 apart = glm::max(glm::max(low - point, point - high), glm::dvec3(0));
+        return glm::dot(apart, apart);
+    }
     bool meets(const Box& other) const {
         return low.x <= other.high.x && low.y <= other.high.y && low.z <= other.high.z &&
                other.low.x <= high.x && other.low.y <= high.y && other.low.z <= high.z;
@@ -46,16 +51,16 @@ public:
     }
     const Box& whole() const { return whole_; }
 
-    /// Calls visit(i) for each triangle whose box meets `box`, in rising order.
+    /// Calls visit(i), in rising order, for each triangle whose box is nearer to the point than the root of
+    /// `limit2`, which visit may lower.
     template <class Visit>
-    void meeting(const Box& box, const Visit& visit) const {
+    void near(const glm::dvec3& point, const double& limit2, const Visit& visit) const {
         for (std::size_t t = 0; t < top_.size(); ++t)
-            if (top_[t].meets(box))
+            if (top_[t].distance2(point) < limit2)
                 for (std::size_t leaf = t * SRS_PAIR_BRANCH, end = last(leaf, leaves_); leaf < end; ++leaf)
-                    if (leaves_[leaf].meets(box))
-                        for (std::size_t i = leaf * SRS_PAIR_BRANCH, stop = last(i, triangles_); i < stop;
-                             ++i)
-                            if (triangles_[i].meets(box))
+                    if (leaves_[leaf].distance2(point) < limit2)
+                        for (std::size_t i = leaf * SRS_PAIR_BRANCH, stop = last(i, triangles_); i < stop; ++i)
+                            if (triangles_[i].distance2(point) < limit2)
                                 visit(i);
     }
 

@@ -134,8 +134,9 @@ void ThreadHold::solve(std::int64_t step, CoupledMotion& motion, std::vector<Thr
             double shift = distance - length;
             if (glm::dot(began, now) > 0.5 * glm::length(began) * distance) {
                 const glm::dvec3 first = glm::normalize(began);
-                const double along = glm::dot(now, first),
-                             inside = along * along - distance * distance + length * length;
+                const double along = glm::dot(now, first);
+                const glm::dvec3 aside = now - along * first;
+                const double inside = length * length - glm::dot(aside, aside);
                 if (inside >= 0) {
                     direction = first;
                     shift = along - std::sqrt(inside);

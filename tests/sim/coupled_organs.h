@@ -91,12 +91,23 @@ inline void stepTogether(std::initializer_list<TestOrgan*> organs) {
         organ->setup.timeStep = shortest;
 }
 
-enum class Kind { reference, cpu };
+enum class Kind { reference, cpu, fragment, compute }; // the last two need a context
 
 inline void makeSolvers(std::initializer_list<TestOrgan*> organs, Kind kind) {
     for (TestOrgan* organ : organs)
-        organ->solver =
-            kind == Kind::cpu ? sim::makeCpuSolver(organ->setup) : sim::makeReferenceSolver(organ->setup);
+        switch (kind) {
+        case Kind::reference:
+            organ->solver = sim::makeReferenceSolver(organ->setup);
+            break;
+        case Kind::cpu:
+            organ->solver = sim::makeCpuSolver(organ->setup);
+            break;
+        case Kind::fragment:
+            organ->solver = std::move(sim::makeFragmentSolver(organ->setup)).value();
+            break;
+        case Kind::compute:
+            organ->solver = std::move(sim::makeComputeSolver(organ->setup)).value();
+        }
 }
 
 inline std::unique_ptr<sim::OrganGroup> groupOf(std::initializer_list<TestOrgan*> organs, double friction = 0,
