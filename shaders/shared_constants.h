@@ -139,3 +139,22 @@
 #define SRS_LEVEL_BLOCKS 9     // place in b_quadrature: two vec4 a corner of a cell
 #define SRS_LEVEL_INTS 10
 #define SRS_QUADRATURE 15 // six symmetric matrices (2 vec4 each), the volumetric term's root (3 columns)
+
+// What couples organs (sim/pair_contact.h, sim/thread_hold.h)
+#define SRS_PAIR_BRANCH 16   // triangles a box, and boxes a larger one
+#define SRS_PAIR_PARTS 64    // of a step, at most
+#define SRS_PAIR_ROUNDS 8    // of the iteration
+#define SRS_PAIR_DEEPEST 1.0 // spacings: what lies deeper in another organ is let alone
+#define SRS_PAIR_AGAINST 0.1 // less than minus this is the cosine between normals that meet
+#define SRS_PAIR_THIN 0.45   // of both organs' thickness: the same
+#define SRS_PAIR_SLACK 0.1   // spacings: how far beside its path a node may touch
+#define SRS_SELF_REACH 2.5   // spacings along the springs: nearer ones of its own organ a node does not touch
+#define SRS_THREAD_SWEEPS 4  // over all threads, a step
+#define SRS_THREAD_PULL 0.05 // spacings a step: how fast a thread is drawn in at most
+#define SRS_THREAD_MEAN 0.005 // s: of the force that breaks a thread
+#define SRS_MAX_THREADS 64
+// Sums of the passes that couple organs (shaders/pair_buffers.glsl): words of the buffer, and a unit of
+// impulse
+#define SRS_PAIR_FASTEST 4
+#define SRS_PAIR_LOADS 64
+#define SRS_PAIR_FIXED 16777216.0

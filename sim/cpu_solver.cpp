@@ -128,6 +128,21 @@ public:
 
     std::vector<ToolLoad> takeLoads() override { return contact_.takeLoads(); }
 
+    void readNodes(std::span<const std::uint32_t> nodes, std::span<NodeMotion> motions) const override {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const std::size_t slot = slotOf(nodes[i]);
+            motions[i] = {glm::dvec3(positions_[current_].get(slot)),
+                          glm::dvec3(increments_[current_].get(slot)), heldBy_[slot] != 0};
+        }
+    }
+    void moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm::dvec3> by) override {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const std::size_t slot = slotOf(nodes[i]);
+            for (const VectorArray* array : {&positions_[current_], &increments_[current_]})
+                array->set(slot, glm::vec3(glm::dvec3(array->get(slot)) + by[i]));
+        }
+    }
+
 private:
     std::size_t slotOf(std::size_t node) const { return std::size_t(layout_.slotOfNode[node]); }
 

@@ -27,6 +27,10 @@ double contactDepth(double depth) {
     return std::min(depth <= kHeld ? depth : kHeld + 0.5 * (depth - kHeld), kInnermost);
 }
 
+double depthOfContact(double counted) {
+    return counted <= kHeld ? counted : kHeld + 2 * (counted - kHeld);
+}
+
 std::uint8_t depthStep(double depth) {
     return std::uint8_t(
         std::lround((std::max(contactDepth(depth), kOutermost) - kOutermost) * kStepsASpacing));

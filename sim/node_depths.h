@@ -21,6 +21,9 @@ class TriangleTree;
 /// deep to 0.6, then half of what is deeper, at most 1.
 double contactDepth(double depth);
 
+/// The depth of which `counted` is the contactDepth, at most 1.4: what is deeper counts as that.
+double depthOfContact(double counted);
+
 /// contactDepth in steps of 1/85 spacing from -2: 0 is two spacings outside, 170 on the surface, 255 for what
 /// lies 1.4 spacings or more inside. `depth` in lattice units.
 std::uint8_t depthStep(double depth);

@@ -122,12 +122,16 @@ std::vector<glm::uvec3> boundaryLeft(const Lattice& lattice, const std::vector<s
     const std::vector<bool> whole = wholeCells(lattice, connections);
     if (std::find(whole.begin(), whole.end(), false) == whole.end())
         return lattice.boundary;
-    // The boundary of a lattice of the whole cells alone: its outer faces are those that are left and those
+    return boundaryOf(lattice, whole);
+}
+
+std::vector<glm::uvec3> boundaryOf(const Lattice& lattice, const std::vector<bool>& flags) {
+    // The boundary of a lattice of these cells alone: its outer faces are those that are left and those
     // that were freed. Its nodes are found again by their grid coordinates.
     std::vector<LatticeCell> cells;
     glm::ivec3 low = lattice.nodeDims;
-    for (std::size_t i = 0; i < whole.size(); ++i)
-        if (whole[i]) {
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        if (flags[i]) {
             cells.push_back(lattice.cells[i]);
             low = glm::min(low, lattice.cells[i].grid);
         }

@@ -32,6 +32,9 @@ std::vector<bool> wholeCells(const Lattice& lattice, const std::vector<std::uint
 /// Lattice::boundary.
 std::vector<glm::uvec3> freedFaces(const Lattice& lattice, const std::vector<bool>& whole);
 
+/// Triangles over nodes, outward: the surface of the cells that are flagged, one flag a cell of the lattice.
+std::vector<glm::uvec3> boundaryOf(const Lattice& lattice, const std::vector<bool>& flags);
+
 /// Triangles over nodes that close what cuts left: the outer faces of whole cells, and freed faces.
 /// Lattice::boundary where nothing is cut.
 std::vector<glm::uvec3> boundaryLeft(const Lattice& lattice, const std::vector<std::uint32_t>& connections);

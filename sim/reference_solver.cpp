@@ -69,6 +69,18 @@ public:
 
     std::vector<ToolLoad> takeLoads() override { return contact_.takeLoads(); }
 
+    void readNodes(std::span<const std::uint32_t> nodes, std::span<NodeMotion> motions) const override {
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            motions[i] = {state_.positions[nodes[i]], state_.increments[nodes[i]],
+                          state_.heldBy[nodes[i]] != 0};
+    }
+    void moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm::dvec3> by) override {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            state_.positions[nodes[i]] += by[i];
+            state_.increments[nodes[i]] += by[i];
+        }
+    }
+
 private:
     /// Springs and whole cells by what cuts left of the lattice's connections.
     void connect(const std::vector<std::uint32_t>& connections) {

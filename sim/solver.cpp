@@ -32,4 +32,19 @@ std::vector<std::vector<ToolLoad>> Solver::flushFrames() {
     return std::exchange(frames_, {});
 }
 
+void Solver::readNodes(std::span<const std::uint32_t> nodes, std::span<NodeMotion> motions) const {
+    const LatticeState now = state();
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        motions[i] = {now.positions[nodes[i]], now.increments[nodes[i]], now.heldBy[nodes[i]] != 0};
+}
+
+void Solver::moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm::dvec3> by) {
+    LatticeState now = state();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        now.positions[nodes[i]] += by[i];
+        now.increments[nodes[i]] += by[i];
+    }
+    setState(now);
+}
+
 } // namespace serosa::sim

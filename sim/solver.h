@@ -32,6 +32,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,12 @@ struct ToolLoad {
     glm::dvec3 angular{0}; // N m s, about the collider's reference point at the end of each step
 };
 
+/// A node between two steps, lattice units: where it lies, and its last increment.
+struct NodeMotion {
+    glm::dvec3 position{0}, increment{0};
+    bool held = false; // by a tool
+};
+
 class Solver {
 public:
     virtual ~Solver() = default;
@@ -97,6 +104,14 @@ public:
 
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
+
+    // What couples organs reads and moves nodes between two steps (sim/organ_group.h), in textures() where
+    // there are any. The defaults work for every solver through state() and setState().
+
+    /// One of `motions` a node.
+    virtual void readNodes(std::span<const std::uint32_t> nodes, std::span<NodeMotion> motions) const;
+    /// Adds to position and increment. \param by one a node, lattice units
+    virtual void moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm::dvec3> by);
 
     // Cuts (sim/blade.h) clear connections at the positions as they are; nothing is resized. The defaults
     // work for every solver through state() and setState(); solvers on the GPU cut in a pass, with no
