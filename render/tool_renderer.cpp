@@ -22,9 +22,9 @@ bool alike(const sim::RigidShape& a, const sim::RigidShape& b) {
            a.halfSize == b.halfSize && a.surface == b.surface;
 }
 
-/// Lines of a floor lie 1, 2 or 5 times a power of ten metres apart, about `extent` / 6.
+/// Lines of a floor lie 1, 2 or 5 times a power of ten metres apart, about `extent` / 10.
 double gridStep(double extent) {
-    const double wanted = extent / 6, power = std::pow(10.0, std::floor(std::log10(wanted)));
+    const double wanted = extent / 10, power = std::pow(10.0, std::floor(std::log10(wanted)));
     return power * (wanted < 2 * power ? 1 : wanted < 5 * power ? 2 : 5);
 }
 

@@ -15,7 +15,7 @@ constexpr double kPadEdge = 0.35;    // rounding of its edges over its thickness
 constexpr double kShaftShare = 0.45; // radius of the shaft over the width of the pads
 constexpr double kShaftLengths = 6;  // of the shaft, in lengths of the pads
 constexpr double kHandShare = 0.4;   // of its radius that a hand that holds is drawn with
-constexpr double kFloorRadii = 1.7;  // half a floor's patch, in radii of the organs' bounds
+constexpr double kFloorRadii = 3;    // half a floor's patch, in radii of the organs' bounds
 
 /// 0: closed, 1: open
 double openShare(const sim::Tool& tool, double time) {

@@ -25,6 +25,6 @@ void main() {
     vec3 tint = mix(kFloor, kLine, max(on.x, on.y));
     vec3 light = surround(n) + kKeyColour * (1.4 * u_key * max(dot(n, u_toKey), 0.0));
     vec3 colour = tint * light + 0.02 * fresnel(0.04, dot(n, v)) * studio(reflect(-v, n), 1.0);
-    float fade = 1.0 - smoothstep(0.45, 1.0, length(v_own.xz));
+    float fade = 1.0 - smoothstep(0.25, 1.0, length(v_own.xz));
     o_colour = vec4(toneMap(colour), fade);
 }

@@ -3,6 +3,7 @@
 #include "sim/setup_traits.h"
 
 #include "sim/byte_stream.h"
+#include "sim/distance_field.h"
 
 #include <algorithm>
 #include <charconv>
@@ -86,6 +87,13 @@ void addShape(const RigidShape& shape, const std::string& name, std::vector<Trai
     traits.push_back({name + " middle", traitValue({shape.middle.x, shape.middle.y, shape.middle.z}, "m")});
     traits.push_back(
         {name + " half size", traitValue({shape.halfSize.x, shape.halfSize.y, shape.halfSize.z}, "m")});
+    if (!shape.field)
+        return;
+    const glm::dvec3& lowest = shape.field->lowest();
+    traits.push_back({name + " mesh", traitValue({lowest.x, lowest.y, lowest.z, shape.field->step()}, "m")});
+    traits.push_back(
+        {name + " mesh field", hashedList(shape.field->values(),
+                                          [](ByteWriter& bytes, float value) { bytes.f64(double(value)); })});
 }
 
 void addBody(const Body& body, const std::string& name, std::vector<Trait>& traits) {
