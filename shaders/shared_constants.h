@@ -70,3 +70,15 @@
 // Surface mapping modes, a vertex
 #define SRS_BASIS_CONSTANT 0u
 #define SRS_BASIS_CORRECTED 1u
+
+// Trees of boxes over an organ's boundary triangles (sim/node_tree.h)
+#define SRS_TREE_LEAF 4 // triangles a leaf
+#define SRS_TREE_LOG2_WIDTH 3
+#define SRS_TREE_WIDTH 8       // nodes below a node
+#define SRS_TREE_MOST_LEVELS 8 // of boxes: 67 million triangles
+#define SRS_TREE_NONE 0xffffffffu
+#define SRS_TREE_RAY 0 // queries
+#define SRS_TREE_CLOSEST 1
+#define SRS_TREE_IN_BOX 2
+#define SRS_TREE_IN_SPHERE 3
+#define SRS_TREE_CANDIDATES 64 // that a query of the last two kinds lists at most
