@@ -82,3 +82,11 @@
 #define SRS_TREE_IN_BOX 2
 #define SRS_TREE_IN_SPHERE 3
 #define SRS_TREE_CANDIDATES 64 // that a query of the last two kinds lists at most
+
+// Level of detail (sim/lod.h)
+#define SRS_LOD_LEAST_VOLUME 0.1   // of a coarse cell over its rest: below, its frame carries no detail
+#define SRS_LOD_SUMS 5             // vec4 of mass, momentum and inertia
+#define SRS_LOD_RUN 1024           // nodes that a group sums
+#define SRS_BLEND_FRAMES 10.0      // in which the drawing of one level turns into that of the next,
+#define SRS_BLEND_MOST_FRAMES 40.0 // or up to so many where it is far: a frame moves no vertex by more than
+#define SRS_BLEND_STEP 0.08        // of the finer level's spacing

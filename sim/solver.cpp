@@ -11,4 +11,8 @@ std::vector<glm::dvec3> Solver::takeToolImpulses() {
     return impulses;
 }
 
+StateTextures* Solver::replaceState(std::int64_t) {
+    return nullptr;
+}
+
 } // namespace serosa::sim

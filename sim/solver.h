@@ -84,6 +84,9 @@ public:
     std::vector<glm::dvec3> takeToolImpulses();
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
+    /// The same, for a pass that writes another state into them (sim/lod_pass.h), of step number `step`;
+    /// as after setState and forgetCuts.
+    virtual StateTextures* replaceState(std::int64_t step);
 
     // Cuts (sim/blade.h) clear connections at the positions as they are; nothing is resized. The defaults
     // work for every solver through state() and setState(); solvers on the GPU cut in a pass, with no

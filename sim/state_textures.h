@@ -34,6 +34,7 @@ public:
 private:
     friend class CellPass;
     friend class CutPass;
+    friend class LodPass;
     friend class TextureSolver;
     friend class FragmentSolver;
     friend class ComputeSolver;

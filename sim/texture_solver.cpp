@@ -11,6 +11,12 @@ void TextureSolver::setState(const LatticeState& state) {
     step_ = state.step;
 }
 
+StateTextures* TextureSolver::replaceState(std::int64_t step) {
+    step_ = step;
+    cuts_.forget();
+    return &textures_;
+}
+
 void TextureSolver::setConstants() {
     stepProgram_.each([this](gpu::Program& program) { setKernelUniforms(program, setup_); });
     if (textures_.layout().kind == SRS_LAYOUT_ROWS) {

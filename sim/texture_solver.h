@@ -21,6 +21,7 @@ public:
     const StateTextures* textures() const override { return &textures_; }
     LatticeState state() const override { return textures_.download(step_); }
     void setState(const LatticeState& state) override;
+    StateTextures* replaceState(std::int64_t step) override;
     Status cut(const Stroke& stroke) override { return cuts_.cut(textures_, lattice(), stroke); }
     bool undoCut() override { return cuts_.undo(textures_); }
     void forgetCuts() override { cuts_.forget(); }
