@@ -67,6 +67,11 @@ std::vector<glm::dvec3> OrganGuard::takeToolImpulses(int frame) {
     return taken;
 }
 
+void OrganGuard::carry(const std::vector<glm::dvec3>& impulses) {
+    for (std::size_t i = 0; i < impulses.size(); ++i)
+        impulses_[i] += impulses[i];
+}
+
 std::optional<sim::Alarm> OrganGuard::retrace(Good& good, std::int64_t last, int steps) {
     sim::Solver& solver = *organ_.solver;
     solver.setState(good.state);

@@ -27,6 +27,11 @@ public:
     /// where the state was seen before.
     bool check(int frame);
 
+    /// The state at the last look that found nothing wrong.
+    const sim::LatticeState& lastGood() const { return good_->state; }
+    /// Impulses that another guard of the same organ was not asked for.
+    void carry(const std::vector<glm::dvec3>& impulses);
+
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }
     /// Impulses of the tools until `frame` since the last call, as Solver::takeToolImpulses, which is this

@@ -200,6 +200,7 @@ private:
             const Displacement moved = largestDisplacement(organ.lattice, now);
             OrganRecord& record = record_.organs[i];
             record.stateHash = now.hash();
+            record.levels = player_.levelChanges(i);
             record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
             countCuts(i, now);
             sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
@@ -326,7 +327,7 @@ private:
 };
 
 void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const OrganParts& parts,
-                   std::ostream& out) {
+                   const OrganLevels& levels, std::ostream& out) {
     out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
         << grouped(parts.surface.file.faces.size()) << " faces\n";
     printRepair(parts.surface, out);
@@ -343,6 +344,8 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
             << shortNumber(parts.step.margin) << ")\n";
+    for (const std::string& line : levels.lines())
+        out << line << "\n";
     for (const sim::Tool& tool : scene.tools)
         if (tool.radius < kLeastToolSpacings * parts.lattice.spacing)
             out << "note: " << tool.name << " has a radius of " << shortNumber(1e3 * tool.radius)
@@ -358,7 +361,7 @@ void describeOrgan(const sim::Scene& scene, const sim::Organ& organ, const Organ
 
 void describeSetup(const RunParts& parts, std::ostream& out) {
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
-        describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], out);
+        describeOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i], parts.levels[i], out);
     if (parts.timesLeftOut > 0)
         out << "note: " << parts.timesLeftOut
             << " of the times in [output] lie after the frames asked for and are left out\n";

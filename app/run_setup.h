@@ -2,6 +2,7 @@
 // All that a run needs, made and checked before anything is written: scene, surface, lattice, context,
 // solver, renderer.
 
+#include "app/organ_levels.h"
 #include "app/organ_setup.h"
 #include "app/run.h"
 #include "render/surface_renderer.h"
@@ -36,6 +37,7 @@ struct RunParts {
     sim::Scene scene;
     std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
+    std::vector<OrganLevels> levels;                 // one an organ: its levels of detail
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
     std::size_t timesLeftOut =
         0; // of surfaces_at, sheet_at and the like: after the last of the frames that were asked for
@@ -59,6 +61,13 @@ using ContextMaker = std::function<Result<std::unique_ptr<gpu::Context>>(const s
 /// Fills `parts`. Errors: all bad input, no context.
 /// \param makeContext empty: what options.gl says
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext = {});
+
+// Of one organ: what prepareRun does, for further levels of detail.
+
+/// Lattice, fixed nodes and time step: all that needs no context.
+Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts);
+/// \param pose it has no solver, but textures
+Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts);
 
 /// Folder that a run writes into where --out is not given.
 std::filesystem::path defaultOutputFolder(const RunOptions& options);

@@ -17,7 +17,8 @@ struct Group {
 };
 constexpr Group kGroups[] = {{"solver", benchSolver}, {"cpu", benchCpu},           {"compute", benchCompute},
                              {"tissue", benchTissue}, {"realtime", benchRealtime}, {"mapping", benchMapping},
-                             {"growth", benchGrowth}, {"gpu", benchGpu},           {"large", benchLarge}};
+                             {"lod", benchLod},       {"growth", benchGrowth},     {"gpu", benchGpu},
+                             {"large", benchLarge}};
 
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {

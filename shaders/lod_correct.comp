@@ -6,7 +6,7 @@ layout(local_size_x = 1) in;
 #define INERTIA_FLOOR 1e-6 // of the trace, in float32: a line of nodes does not turn about itself
 
 layout(std430) readonly restrict buffer b_sums { vec4 b_sum[]; };
-layout(std430) writeonly restrict buffer b_motion { vec4 b_rigid[]; }; // a, w, c
+layout(std430) writeonly restrict buffer b_motion { vec4 b_rigid[]; }; // a, w; c from the first node
 uniform ivec2 u_groups; // of the source, of the target
 
 void main() {

@@ -19,8 +19,9 @@ void main() {
         return;
     ivec2 texel = ivec2(b_mass[node].x & 0xffffu, b_mass[node].x >> 16), texels[SRS_NEIGHBOURS];
     vec3 x = texelFetch(t_positions, texel, 0).xyz, u = texelFetch(t_increments, texel, 0).xyz;
+    vec3 from = texelFetch(t_positions, ivec2(b_mass[0].x & 0xffffu, b_mass[0].x >> 16), 0).xyz;
     if (uintBitsToFloat(b_mass[node].y) > 0.0)
-        u += b_rigid[0].xyz + cross(b_rigid[1].xyz, x - b_rigid[2].xyz);
+        u += b_rigid[0].xyz + cross(b_rigid[1].xyz, x - from - b_rigid[2].xyz);
     beginAddresses(texel);
     listNeighbours(texels);
     uint bits = imageLoad(i_nodeInfo, texel).x & SRS_CONNECTION_MASK;

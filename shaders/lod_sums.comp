@@ -9,7 +9,6 @@ layout(std430) writeonly restrict buffer b_sums { vec4 b_sum[]; };    // SRS_LOD
 uniform int u_nodes;
 uniform int u_first; // of the groups' slots
 uniform float u_lengthScale, u_velocityScale, u_lead; // into the units of the level that is asked for
-uniform vec3 u_shift;
 uniform sampler2D t_positions, t_increments, t_before;
 
 shared vec4 s_sums[GROUP * SRS_LOD_SUMS];
@@ -20,10 +19,12 @@ void main() {
     vec4 sums[SRS_LOD_SUMS];
     for (int i = 0; i < SRS_LOD_SUMS; ++i)
         sums[i] = vec4(0.0);
+    // From the first node: an organ may have moved far, and turn slowly.
+    vec3 from = texelFetch(t_positions, ivec2(b_mass[0].x & 0xffffu, b_mass[0].x >> 16), 0).xyz;
     for (int node = first + invocation; node < last; node += GROUP) {
         ivec2 texel = ivec2(b_mass[node].x & 0xffffu, b_mass[node].x >> 16);
         float m = uintBitsToFloat(b_mass[node].y);
-        vec3 x = u_lengthScale * texelFetch(t_positions, texel, 0).xyz + u_shift;
+        vec3 x = u_lengthScale * (texelFetch(t_positions, texel, 0).xyz - from);
         vec3 u = texelFetch(t_increments, texel, 0).xyz;
         if (u_lead != 0.0)
             u += u_lead * (u - texelFetch(t_before, texel, 0).xyz);

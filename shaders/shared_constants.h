@@ -87,6 +87,6 @@
 #define SRS_LOD_LEAST_VOLUME 0.1   // of a coarse cell over its rest: below, its frame carries no detail
 #define SRS_LOD_SUMS 5             // vec4 of mass, momentum and inertia
 #define SRS_LOD_RUN 1024           // nodes that a group sums
-#define SRS_BLEND_FRAMES 10.0      // in which the drawing of one level turns into that of the next,
-#define SRS_BLEND_MOST_FRAMES 40.0 // or up to so many where it is far: a frame moves no vertex by more than
-#define SRS_BLEND_STEP 0.08        // of the finer level's spacing
+#define SRS_BLEND_FRAMES 10.0       // in which the drawing of one level turns into that of the next,
+#define SRS_BLEND_MOST_FRAMES 250.0 // or up to so many where it is far: a frame moves no vertex by more than
+#define SRS_BLEND_STEP 0.08         // of the finest level's spacing

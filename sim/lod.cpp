@@ -152,7 +152,6 @@ LodTransfer LodTransfer::make(const SolverSetup& from, const SolverSetup& to) {
     transfer.targetFixed.resize(target.nodeCount(), false);
     transfer.lengthScale = source.spacing / target.spacing;
     transfer.stepScale = to.timeStep / from.timeStep;
-    transfer.shift = target.toLattice(source.origin);
     return transfer;
 }
 
@@ -200,7 +199,7 @@ LatticeState transferState(const LodTransfer& transfer, const Lattice& target, c
         now.add(transfer.targetMasses[node], x, u);
     }
     for (std::size_t node = 0; node < velocities.size(); ++node)
-        wanted.add(transfer.sourceMasses[node], transfer.lengthScale * from.positions[node] + transfer.shift,
+        wanted.add(transfer.sourceMasses[node], transfer.lengthScale * from.positions[node],
                    velocityScale * velocities[node]);
     const RigidMotion motion = missing(wanted, now);
     for (std::size_t node = 0; node < target.nodeCount(); ++node)

@@ -42,7 +42,6 @@ struct LodTransfer {
     std::vector<bool> targetFixed;
     double lengthScale = 1; // source's spacing over the target's
     double stepScale = 1;   // target's time step over the source's
-    glm::dvec3 shift{0};    // the source's lattice coordinate 0, in the target's
 
     static LodTransfer make(const SolverSetup& from, const SolverSetup& to);
 };

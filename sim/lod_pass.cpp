@@ -126,10 +126,8 @@ void LodPass::run(Way& way, const StateTextures& from, StateTextures& to, float 
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 
     sums_.set("u_lengthScale", lengthScale).set("u_velocityScale", velocityScale).set("u_lead", lead);
-    sums_.set("u_shift", glm::vec3(transfer.shift));
     sum(way.sourceMasses, int(transfer.sourceRest.size()), 0, way.sourceGroups, from, from.current_);
     sums_.set("u_lengthScale", 1.0F).set("u_velocityScale", 1.0F).set("u_lead", 0.0F);
-    sums_.set("u_shift", glm::vec3(0));
     sum(way.targetMasses, nodes, way.sourceGroups, way.targetGroups, to, other);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     correct_.buffer("b_sums", partialSums_).buffer("b_motion", motion_);

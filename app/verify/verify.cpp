@@ -146,6 +146,8 @@ const std::vector<VerifyGroup>& verifyGroups() {
          verifyCuts},
         {"stability", "random organs, tools and cuts: no state runs away, and the step's bound is one", true,
          verifyStability},
+        {"lod", "switches of detail in motion, and the tree that answers picking and candidates", true,
+         verifyLod},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;
