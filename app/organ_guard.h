@@ -29,12 +29,14 @@ public:
 
     /// The solver's state was set from elsewhere, and is that after `frame` frames.
     void restart(int frame);
-    /// Frame number `frame` ends: its steps were taken, and its cuts made. What colliders gave in it comes
-    /// two frames later (Solver::frameLoads), or with a look.
-    void endFrame(int frame);
     /// Looks at the state. True: it is wrong, and the organ was set back and is frozen now. Nothing is done
     /// where the state was seen before.
     bool check(int frame);
+
+    /// The state at the last look that found nothing wrong.
+    const sim::LatticeState& lastGood() const { return good_->state; }
+    /// Loads of earlier frames that another guard of the same organ was not asked for.
+    void carry(std::vector<FrameLoads> loads) { loads_ = std::move(loads); }
 
     bool frozen() const { return alarm_.has_value(); }
     const std::optional<sim::Alarm>& alarm() const { return alarm_; }

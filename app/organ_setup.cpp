@@ -89,6 +89,7 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
     sim::LatticeRequest request;
     request.spacing = organ.spacing;
     request.nodes = organ.nodes;
+    request.gridPoint = organ.gridPoint;
     Result<sim::Lattice> lattice = sim::buildLattice(metres, request);
     if (!lattice.ok())
         return Error{scenePosition(scene, organ.modelLine) + lattice.error().message};

@@ -212,6 +212,7 @@ private:
             const Displacement moved = largestDisplacement(organ.lattice, now);
             OrganRecord& record = record_.organs[i];
             record.stateHash = now.hash();
+            record.levels = player_.levelChanges(i);
             record.invertedCells = std::max(record.invertedCells, sim::invertedCells(organ.lattice, now));
             countCuts(i, now);
             sum.largestDisplacement = std::max(sum.largestDisplacement, moved.largest);
@@ -340,8 +341,8 @@ private:
     std::string failure_;
 };
 
-void describeOrgan(const sim::Organ& organ, const OrganParts& parts, std::ostream& out,
-                   std::vector<std::string>& notes) {
+void describeOrgan(const sim::Organ& organ, const OrganParts& parts, const OrganLevels& levels,
+                   std::ostream& out, std::vector<std::string>& notes) {
     out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
         << grouped(parts.surface.file.faces.size()) << " faces\n";
     printRepair(parts.surface, out);
@@ -358,6 +359,8 @@ void describeOrgan(const sim::Organ& organ, const OrganParts& parts, std::ostrea
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "
             << shortNumber(parts.step.margin) << ")\n";
+    for (const std::string& line : levels.lines())
+        out << line << "\n";
     if (parts.binding.tornEdgesFound > 0)
         out << "binding: " << parts.binding.tornEdgesFound << " torn edges, " << parts.binding.tornEdgesLeft
             << " left after flooding\n";
@@ -367,7 +370,7 @@ void describeOrgan(const sim::Organ& organ, const OrganParts& parts, std::ostrea
 std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out) {
     std::vector<std::string> notes;
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
-        describeOrgan(parts.scene.organs[i], *parts.organs[i], out, notes);
+        describeOrgan(parts.scene.organs[i], *parts.organs[i], parts.levels[i], out, notes);
     for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
         notes.push_back(std::move(note));
     if (parts.timesLeftOut > 0)

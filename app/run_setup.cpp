@@ -69,7 +69,8 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
     return applyOverrides(options, parts.scene, parts.timesLeftOut);
 }
 
-/// Lattice, fixed nodes and time step: all that needs no context.
+} // namespace
+
 Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
     SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres, scene.file));
     if (scene.look.colour == sim::SurfaceColour::material)
@@ -122,8 +123,6 @@ Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts) 
     parts.uploaded.emplace(std::move(textures));
     return {};
 }
-
-} // namespace
 
 sim::Mapping RunParts::surfaceMapping() const {
     return scene.look.mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : scene.look.mapping;
@@ -181,6 +180,9 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
                                                       parts.scene.output.height));
         parts.renderer.emplace(std::move(renderer));
     }
+    parts.levels.resize(parts.organs.size());
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        SEROSA_TRY(OrganLevels::prepare(options, parts, i));
     return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/contact_notes.h"
 #include "app/hands.h"
+#include "app/organ_levels.h"
 #include "app/organ_setup.h"
 #include "app/run.h"
 #include "render/surface_renderer.h"
@@ -38,6 +39,7 @@ struct RunParts {
     sim::Scene scene;
     std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
+    std::vector<OrganLevels> levels;                 // one an organ: its levels of detail
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
     std::optional<Hands> hands; // where they were asked for; their tools are the scene's last ones
     std::size_t timesLeftOut =
@@ -64,6 +66,13 @@ using ContextMaker = std::function<Result<std::unique_ptr<gpu::Context>>(const s
 /// Fills `parts`. Errors: all bad input, no context.
 /// \param makeContext empty: what options.gl says
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext = {});
+
+// Of one organ: what prepareRun does, for further levels of detail.
+
+/// Lattice, fixed nodes and time step: all that needs no context.
+Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts);
+/// \param pose it has no solver, but textures
+Status makeOrganSolver(const RunOptions& options, bool pose, OrganParts& parts);
 
 /// Folder that a run writes into where --out is not given.
 std::filesystem::path defaultOutputFolder(const RunOptions& options);

@@ -11,10 +11,11 @@ namespace serosa::app {
 
 ScenePlayer::ScenePlayer(RunParts& parts)
     : parts_(parts), cuts_(parts.organs.size()), lastCut_(parts.organs.size()),
-      shownConnections_(parts.organs.size()), posed_(parts.organs.size()), guards_(parts.organs.size()) {
+      shownConnections_(parts.organs.size()), posed_(parts.organs.size()), guards_(parts.organs.size()),
+      levelChoices_(parts.organs.size()), changes_(parts.organs.size()) {
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         if (parts.organs[i]->solver)
-            guards_[i].emplace(*parts.organs[i], cuts_[i], 1 / parts.scene.frameRate);
+            newGuard(i);
     reset();
 }
 
@@ -68,35 +69,35 @@ void ScenePlayer::showCuts(std::size_t i) {
 void ScenePlayer::advance() {
     ++frame_;
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-        OrganParts& organ = *parts_.organs[i];
         if (guards_[i]) {
-            if (guards_[i]->frozen())
-                continue;
-            organ.solver->advance(organ.step.stepsPerFrame);
-            cut(i);
-            guards_[i]->endFrame(frame_);
-            if (organ.uploaded)
-                organ.uploaded->upload(organ.solver->state());
+            if (!guards_[i]->frozen())
+                takeSteps(i);
             continue;
         }
+        OrganParts& organ = *parts_.organs[i];
         const double share = std::min(1.0, double(frame_) / parts_.scene.frames());
         posed_[i] = bentState(organ.lattice, share / parts_.scene.organs[i].pose->bendRadius);
         posed_[i]->step = frame_;
         organ.uploaded->upload(*posed_[i]);
     }
-    if (frame_ % kFramesBetweenChecks == 0)
+    if (frame_ % kFramesBetweenChecks == 0) {
         check();
+        lookAtLevels();
+    }
 }
 
 void ScenePlayer::check() {
-    for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-        if (!guards_[i] || !guards_[i]->check(frame_))
-            continue;
-        OrganParts& organ = *parts_.organs[i];
-        showCuts(i);
-        if (organ.uploaded)
-            organ.uploaded->upload(organ.solver->state());
-    }
+    for (std::size_t i = 0; i < parts_.organs.size(); ++i)
+        check(i);
+}
+
+void ScenePlayer::check(std::size_t i) {
+    if (!guards_[i] || !guards_[i]->check(frame_))
+        return;
+    OrganParts& organ = *parts_.organs[i];
+    showCuts(i);
+    if (organ.uploaded)
+        organ.uploaded->upload(organ.solver->state());
 }
 
 void ScenePlayer::reset() {
@@ -110,10 +111,12 @@ void ScenePlayer::reset() {
             organ.solver->forgetCuts();
             cuts_[i].clear();
             showCuts(i);
+            startLevel(i);
             guards_[i]->restart(0);
         }
-        if (organ.uploaded)
-            organ.uploaded->upload(sim::restState(organ.lattice));
+        OrganParts& now = *parts_.organs[i]; // on its first level of detail
+        if (now.uploaded)
+            now.uploaded->upload(sim::restState(now.lattice));
     }
 }
 

@@ -2,8 +2,10 @@
 // A scene's state, frame by frame. A frame is always the same number of steps, so what comes after 300 of
 // them is the same bytes however they were paced and drawn: `serosa view` plays what `serosa run` runs.
 
+#include "app/level_state.h"
 #include "app/organ_guard.h"
 #include "app/run_setup.h"
+#include "app/summary.h"
 #include "sim/cut_list.h"
 #include "sim/lattice_state.h"
 #include "sim/snapshot.h"
@@ -49,7 +51,26 @@ public:
     /// What tools and bodies gave to an organ, frame by frame, as OrganGuard::takeLoads; empty for a pose.
     std::vector<FrameLoads> takeLoads(std::size_t organ, bool all = false);
 
+    /// The levels of detail that an organ was on; empty where it has but one.
+    const std::vector<LevelChange>& levelChanges(std::size_t organ) const { return changes_[organ]; }
+
 private:
+    /// The level that an organ is to be on at the end of this frame.
+    int wantedLevel(std::size_t organ) const;
+    /// Takes a frame's steps, and hands over to another level if one is wanted and nothing is against it: a
+    /// cut organ stays on its level, and tools that hold tissue must let go first.
+    void takeSteps(std::size_t organ);
+    void changeLevel(std::size_t organ, int level, const std::vector<glm::dvec3>& before);
+    /// Another level's solver is the organ's.
+    void newGuard(std::size_t organ);
+    /// At rest, on the level that a run begins with.
+    void startLevel(std::size_t organ);
+    void lookAtLevels();
+    LevelState levelState(std::size_t organ) const;
+    /// On its level, whose solver's state is set by others.
+    void restoreLevel(std::size_t organ, int level, const LevelState& state);
+    void check(std::size_t organ);
+
     /// The scene's cuts and tears of the frame that ends now.
     void cut(std::size_t organ);
     /// Lets the renderer draw what cuts left, if they changed anything. Reads the bits back (stalls).
@@ -62,6 +83,8 @@ private:
     std::vector<std::vector<std::uint32_t>> shownConnections_; // one an organ; empty: nothing is cut
     std::vector<std::optional<sim::LatticeState>> posed_;      // one an organ
     std::vector<std::optional<OrganGuard>> guards_;            // one an organ; none for a pose
+    std::vector<LevelChoice> levelChoices_;                    // one an organ
+    std::vector<std::vector<LevelChange>> changes_;            // one an organ
 };
 
 } // namespace serosa::app

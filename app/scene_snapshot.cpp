@@ -31,6 +31,13 @@ std::string cutsTrait(const std::vector<sim::Cut>& cuts) {
     return std::to_string(cuts.size()) + " (" + sim::checksumText(sim::checksumOf(bytes.bytes())) + ")";
 }
 
+std::string levelsTrait(const sim::Organ& organ) {
+    std::string text = std::to_string(organ.levels) + (organ.levelsByRule ? ", auto" : "");
+    for (const sim::LevelKey& key : organ.levelKeys)
+        text += ", " + sim::traitValue({key.time}, "s") + ": " + std::to_string(key.level);
+    return text;
+}
+
 /// The solver that stepped the organs of a snapshot; "pose" where none was simulated.
 std::string solverOf(const sim::Snapshot& snapshot) {
     for (const sim::OrganSnapshot& organ : snapshot.organs)
@@ -58,6 +65,8 @@ std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, const sim::Organ& o
     const std::vector<sim::Trait> ofSetup = sim::setupTraits(parts.setup);
     traits.insert(traits.end(), ofSetup.begin(), ofSetup.end());
     traits.push_back({"cuts", cutsTrait(scene.cuts)});
+    if (organ.levels > 1)
+        traits.push_back({"levels", levelsTrait(organ)});
     traits.push_back({"tear_strain", sim::traitValue({organ.tearStrain}, "")});
     return traits;
 }
@@ -90,12 +99,18 @@ Result<std::optional<sim::Snapshot>> readStart(RunOptions& options,
     return std::optional(std::move(snapshot));
 }
 
-Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, const RunParts& parts) {
+Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, RunParts& parts) {
     const std::string name = options.from.string() + ": ";
     if (snapshot.organs.size() != parts.organs.size())
         return Error{name + "belongs to another scene: it has " + std::to_string(snapshot.organs.size()) +
                      " organs, this scene " + std::to_string(parts.organs.size())};
     for (std::size_t i = 0; i < parts.organs.size(); ++i) {
+        const sim::OrganSnapshot& saved = snapshot.organs[i];
+        if (saved.level < 1 || saved.level > std::uint32_t(parts.levels[i].count()))
+            return Error{name + "belongs to another scene: " + saved.name + " is on level " +
+                         std::to_string(saved.level) + " of detail in the snapshot, here it has " +
+                         std::to_string(parts.levels[i].count())};
+        parts.levels[i].select(parts, i, int(saved.level));
         const OrganParts& organ = *parts.organs[i];
         const std::string solver = !organ.solver       ? kPose
                                    : options.anySolver ? ""
@@ -105,6 +120,9 @@ Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, cons
                                sceneTraits(parts.scene, parts.scene.organs[i], organ), organ.lattice);
         if (!fits.ok())
             return Error{name + fits.error().message};
+        if (!LevelState::parse(saved.levelState, parts, i, int(snapshot.frame)))
+            return Error{name + saved.name +
+                         ": what it says of levels of detail makes no sense: write the snapshot again"};
     }
     if (snapshot.frame >= parts.scene.frames())
         return Error{name + "is of frame " + std::to_string(snapshot.frame) + ", and the run ends at frame " +
@@ -160,6 +178,8 @@ sim::Snapshot ScenePlayer::snapshot() {
         organ.traits = sceneTraits(parts_.scene, parts_.scene.organs[i], parts);
         organ.cuts = cuts_[i].entries();
         organ.lastCut = lastCut_[i];
+        organ.level = std::uint32_t(parts_.levels[i].active());
+        organ.levelState = levelState(i).bytes();
         if (parts.solver) {
             sim::takeSnapshot(*parts.solver, organ);
         } else {
@@ -175,8 +195,11 @@ void ScenePlayer::restore(const sim::Snapshot& snapshot) {
     SEROSA_CHECK(snapshot.organs.size() == parts_.organs.size(), "a snapshot of this scene");
     frame_ = int(snapshot.frame);
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-        OrganParts& parts = *parts_.organs[i];
         const sim::OrganSnapshot& organ = snapshot.organs[i];
+        const auto levels = LevelState::parse(organ.levelState, parts_, i, frame_);
+        SEROSA_CHECK(levels, "a snapshot of this scene");
+        restoreLevel(i, int(organ.level), *levels);
+        OrganParts& parts = *parts_.organs[i];
         cuts_[i].assign(organ.cuts);
         lastCut_[i] = std::size_t(organ.lastCut);
         if (parts.solver) {

@@ -23,9 +23,9 @@ std::string machineOf(const RunParts& parts);
 Result<std::optional<sim::Snapshot>> readStart(RunOptions& options,
                                                const std::filesystem::path& outputFolder);
 
-/// Whether prepared `parts` can go on from it. Errors begin with the file's name: other organs, clock, scene
-/// or solver; no frame is left to run.
-Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, const RunParts& parts);
+/// Whether prepared `parts` can go on from it; puts organs on its levels of detail. Errors begin with the
+/// file's name: other organs, clock, scene or solver; no frame is left to run.
+Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, RunParts& parts);
 
 /// Says where a run goes on from, and what keeps it from the bytes of one that never stopped.
 void describeStart(const sim::Snapshot& snapshot, const RunOptions& options, const RunParts& parts,

@@ -81,6 +81,8 @@ Json organJson(const sim::Organ& organ, const OrganRecord& record) {
                  {"materials", materialsJson(organ, *record.lattice)}};
     if (organ.upAxis != sim::UpAxis::y)
         json["up_axis"] = wordOf("organ", "up_axis", int(organ.upAxis));
+    for (const LevelChange& change : record.levels)
+        json["levels"].push_back({{"frame", change.frame}, {"level", change.level}});
     if (record.repair)
         json["repair"] = repairJson(*record.repair);
     return json;

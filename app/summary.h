@@ -39,6 +39,11 @@ struct RunTimes { // s of wall time
     double steps = 0, mapping = 0, draw = 0, files = 0, setup = 0, total = 0;
 };
 
+/// A level of detail that an organ came to.
+struct LevelChange {
+    int frame = 0, level = 1;
+};
+
 /// Of one organ; what is pointed at outlives the record.
 struct OrganRecord {
     std::string solver; // "fragment", "reference", "pose"
@@ -54,6 +59,7 @@ struct OrganRecord {
     std::string stateHash;
     std::size_t strokes = 0, springsCut = 0; // of the last sampled state
     sim::PieceCount pieces;
+    std::vector<LevelChange> levels; // of detail, by frame; of an organ that has several
     std::optional<sim::Alarm> alarm; // of the watchdog, which froze it
 };
 

@@ -15,11 +15,11 @@ struct Group {
     const char* name;
     Status (*run)(const Options&, Report&);
 };
-constexpr Group kGroups[] = {{"solver", benchSolver},   {"cpu", benchCpu},
-                             {"compute", benchCompute}, {"tissue", benchTissue},
-                             {"contact", benchContact}, {"realtime", benchRealtime},
-                             {"mapping", benchMapping}, {"growth", benchGrowth},
-                             {"gpu", benchGpu},         {"large", benchLarge}};
+constexpr Group kGroups[] = {
+    {"solver", benchSolver},   {"cpu", benchCpu},         {"compute", benchCompute},
+    {"tissue", benchTissue},   {"contact", benchContact}, {"realtime", benchRealtime},
+    {"mapping", benchMapping}, {"lod", benchLod},         {"growth", benchGrowth},
+    {"gpu", benchGpu},         {"large", benchLarge}};
 
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {

@@ -4,6 +4,7 @@
 #include "gpu/gl.h"
 #include "render/baked_occlusion.h"
 #include "render/surface_vertices.h"
+#include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ using sim::SurfaceColour;
 
 constexpr SurfaceStage kStages[] = {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected,
                                     SurfaceStage::nodes};
+constexpr int kCapturedBytes = 24;         // position and normal of a vertex
 constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB of kFleshColour, where the mesh has no colours
 
 /// Square root of the linear value: the vertex stage squares it, and 8 bits suffice in the dark.
@@ -71,6 +73,31 @@ Result<SurfacePasses::Programs> SurfacePasses::compile(const gpu::ShaderLibrary&
             programs.emplace(std::pair(stage, colour), std::move(program));
         }
     return programs;
+}
+
+// As compile and createCaptures.
+Status SurfacePasses::prepareBlend() {
+    if (!blendStarts_.empty())
+        return {};
+    const gpu::ShaderLibrary library;
+    for (const SurfaceStage stage : {SurfaceStage::constant, SurfaceStage::corrected}) {
+        std::vector<gpu::ShaderDefine> all = defines(stage);
+        SEROSA_ASSIGN(gpu::Program start,
+                      gpu::Program::create(library, {"lod_blend.vert"}, all, {"v_offset", "v_normal"}));
+        blendStarts_.emplace(stage, std::move(start));
+        all.push_back({"SURFACE_BLEND", ""});
+        SEROSA_ASSIGN(gpu::Program capture,
+                      gpu::Program::create(library, {"surface.vert"}, all, {"v_position", "v_normal"}));
+        blendCaptures_.emplace(stage, std::move(capture));
+        for (const SurfaceColour colour : {SurfaceColour::tissue, SurfaceColour::dynamicNormal}) {
+            if (colour == SurfaceColour::dynamicNormal)
+                all.push_back({"SURFACE_NORMAL_COLOURS", ""});
+            SEROSA_ASSIGN(gpu::Program program,
+                          gpu::Program::create(library, {"surface.vert", "surface.frag"}, all));
+            blendPrograms_.emplace(std::pair(stage, colour), std::move(program));
+        }
+    }
+    return {};
 }
 
 Status SurfacePasses::createCaptures() {
@@ -181,7 +208,10 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
                                      SurfaceColour colour, const glm::vec3& bare) {
     // Colours of materials are those of the vertices, as the tissue's are.
     gpu::Program& program =
-        programs_.at({stage, colour == SurfaceColour::dynamicNormal ? colour : SurfaceColour::tissue});
+        (blends(stage) ? blendPrograms_ : programs_)
+            .at({stage, colour == SurfaceColour::dynamicNormal ? colour : SurfaceColour::tissue});
+    if (blends(stage))
+        setBlendUniforms(program);
     program.set("u_clipFromLattice", frame.clipFromLattice);
     program.set("u_section", frame.section);
     if (stage != SurfaceStage::undeformed)
@@ -225,29 +255,89 @@ void SurfacePasses::drawDiscarded(const sim::StateTextures& state, SurfaceStage 
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
-SurfacePasses::Captured SurfacePasses::capture(const sim::StateTextures& state, SurfaceStage stage) {
+void SurfacePasses::setBlendUniforms(gpu::Program& program) const {
+    program.set("u_blendFrames", blendFrame_).set("u_blendStep", blendStep_);
+}
+
+void SurfacePasses::feedBack(SurfaceStage stage, const gpu::Program& program, const gpu::Buffer& into) {
+    program.use();
+    glBindVertexArray(geometry_.at(stage).array.id());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, into.id());
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, GLsizei(newIndex_.size()));
+    glEndTransformFeedback();
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    glDisable(GL_RASTERIZER_DISCARD);
+}
+
+gpu::Buffer SurfacePasses::shown(const sim::StateTextures& state, SurfaceStage stage) {
     SEROSA_CHECK(stage != SurfaceStage::nodes, "node positions are in the state texture already");
-    gpu::Program& program = captures_.at(stage);
+    gpu::Program& program = (blends(stage) ? blendCaptures_ : captures_).at(stage);
     program.set("u_clipFromLattice", glm::mat4(1));
     program.set("u_section", glm::vec4(0));
     if (stage != SurfaceStage::undeformed)
         program.texture("t_positions", state.positions());
+    if (blends(stage))
+        setBlendUniforms(program);
+    gpu::Buffer captured("captured vertices", newIndex_.size() * kCapturedBytes, nullptr);
+    feedBack(stage, program, captured);
+    return captured;
+}
+
+void SurfacePasses::attachBlend(SurfaceStage stage, const gpu::Buffer& buffer) {
+    gpu::VertexArray& array = geometry_.at(stage).array;
+    array.attribute(5, buffer, 3, GL_FLOAT, false, kCapturedBytes, 0);
+    array.attribute(6, buffer, 3, GL_FLOAT, false, kCapturedBytes, kCapturedBytes / 2);
+}
+
+void SurfacePasses::startBlend(const sim::StateTextures& state, SurfaceStage stage, const gpu::Buffer& shown,
+                               float scale, const glm::vec3& shift, float step) {
+    gpu::Program& program = blendStarts_.at(stage);
+    attachBlend(stage, shown);
+    program.set("u_shownScale", scale).set("u_shownShift", shift);
+    program.texture("t_positions", state.positions());
+    blend_ = gpu::Buffer("switch of detail", newIndex_.size() * kCapturedBytes, nullptr);
+    feedBack(stage, program, blend_);
+    attachBlend(stage, blend_);
+    blendStage_ = stage;
+    blendFrame_ = 0;
+    blendStep_ = step;
+}
+
+std::vector<float> SurfacePasses::blend() const {
+    std::vector<float> values;
+    if (!blendStage_)
+        return values;
+    values.resize(blend_.bytes() / sizeof(float));
+    blend_.download(0, blend_.bytes(), values.data());
+    return values;
+}
+
+void SurfacePasses::setBlend(SurfaceStage stage, const std::vector<float>& blend, float step) {
+    blendStage_.reset();
+    if (blend.empty())
+        return;
+    SEROSA_CHECK(blend.size() * sizeof(float) == newIndex_.size() * kCapturedBytes, "six floats a vertex");
+    blend_ = gpu::Buffer("switch of detail", std::span<const float>(blend));
+    attachBlend(stage, blend_);
+    blendStage_ = stage;
+    blendStep_ = step;
+}
+
+void SurfacePasses::setBlendFrame(float frames) {
+    blendFrame_ = frames;
+    if (frames >= float(SRS_BLEND_MOST_FRAMES))
+        blendStage_.reset();
+}
+
+SurfacePasses::Captured SurfacePasses::capture(const sim::StateTextures& state, SurfaceStage stage) {
     struct Item {
         glm::vec3 position, normal;
     };
+    static_assert(sizeof(Item) == kCapturedBytes, "two outputs");
     std::vector<Item> items(newIndex_.size());
-    const std::size_t bytes = items.size() * sizeof(Item);
-    const gpu::Buffer captured("captured vertices", bytes, nullptr);
-    program.use();
-    glBindVertexArray(geometry_.at(stage).array.id());
-    glEnable(GL_RASTERIZER_DISCARD);
-    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, captured.id());
-    glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, GLsizei(items.size()));
-    glEndTransformFeedback();
-    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
-    glDisable(GL_RASTERIZER_DISCARD);
-    captured.download(0, bytes, items.data());
+    shown(state, stage).download(0, items.size() * sizeof(Item), items.data());
 
     Captured result;
     for (const std::uint32_t index : newIndex_) {

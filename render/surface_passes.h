@@ -9,6 +9,7 @@
 #include "sim/state_textures.h"
 
 #include <map>
+#include <optional>
 
 namespace serosa::render {
 
@@ -40,6 +41,24 @@ public:
     };
     Captured capture(const sim::StateTextures& state, SurfaceStage stage);
 
+    // A switch of level of detail: another SurfacePasses, of the same mesh over another lattice, drew it
+    // until now. What the two differ by fades in the frames that follow.
+
+    /// Makes the programs for it. Errors: of the shaders.
+    Status prepareBlend();
+    /// Positions (its lattice units) and normals as they are drawn, two vec3 a vertex in the buffers' order.
+    gpu::Buffer shown(const sim::StateTextures& state, SurfaceStage stage);
+    /// Draws `stage` (constant or corrected) from now on with what is missing to what the other one showed.
+    /// \param scale, shift from its lattice units to this one's
+    /// \param step lattice units that the fading may move a vertex a frame
+    void startBlend(const sim::StateTextures& state, SurfaceStage stage, const gpu::Buffer& shown,
+                    float scale, const glm::vec3& shift, float step);
+    /// The frame after the switch that is drawn from now on; 0: the one of the switch.
+    void setBlendFrame(float frames);
+    /// What fades: six floats a vertex in the order of the buffers; empty: nothing does.
+    std::vector<float> blend() const;
+    void setBlend(SurfaceStage stage, const std::vector<float>& blend, float step);
+
     /// Draws from now on only these faces of the mesh (one flag a face), and these triangles over nodes for
     /// stage nodes.
     void show(const std::vector<glm::uvec3>& faces, const std::vector<bool>& left,
@@ -59,11 +78,20 @@ private:
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage);
+    bool blends(SurfaceStage stage) const { return blendStage_ == stage; }
+    void setBlendUniforms(gpu::Program& program) const;
+    void attachBlend(SurfaceStage stage, const gpu::Buffer& buffer);
+    void feedBack(SurfaceStage stage, const gpu::Program& program, const gpu::Buffer& into);
 
     bool anyConstant_ = false; // a vertex of the corrected mapping falls back to the constant basis
     Programs programs_;
     std::map<SurfaceStage, gpu::Program> captures_;
     std::map<SurfaceStage, Geometry> geometry_;
+    std::optional<SurfaceStage> blendStage_; // while a switch of detail fades
+    float blendFrame_ = 0, blendStep_ = 0;
+    Programs blendPrograms_;
+    std::map<SurfaceStage, gpu::Program> blendCaptures_, blendStarts_;
+    gpu::Buffer blend_; // two vec3 a vertex
     gpu::Buffer indices_, nodeIndices_;
     int indexCount_ = 0, nodeIndexCount_ = 0;
     std::vector<std::uint32_t> newIndex_; // buffer index of each mesh vertex

@@ -9,7 +9,10 @@
 #include "render/surface_passes.h"
 #include "render/surface_vertices.h"
 #include "render/tool_renderer.h"
+#include "shaders/shared_constants.h"
 #include "sim/pieces.h"
+
+#include <optional>
 
 namespace serosa::render {
 
@@ -35,6 +38,9 @@ struct DrawnOrgan {
 
 struct SurfaceRenderer::Impl {
     std::vector<DrawnOrgan> organs; // at least one
+    // Of each organ its levels of detail; the one that is drawn stands in `organs`, and is none here.
+    std::vector<std::vector<std::optional<DrawnOrgan>>> levels;
+    std::vector<std::size_t> level; // that is drawn, one an organ
     ToolRenderer tools;
     gpu::Program backdrop;
     gpu::VertexArray empty;
@@ -73,6 +79,8 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
     SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
     auto impl = std::make_unique<Impl>(Impl{{},
+                                            {},
+                                            {},
                                             std::move(tools),
                                             std::move(backdrop),
                                             gpu::VertexArray("no attributes"),
@@ -86,6 +94,61 @@ Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::Triangl
     SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
     impl_->organs.push_back(std::move(organ));
     return {};
+}
+
+Status SurfaceRenderer::addLevel(std::size_t organ, const sim::Lattice& lattice,
+                                 const sim::TriangleMesh& metres, const SurfaceBinding& binding,
+                                 const sim::StateTextures& state) {
+    SEROSA_ASSIGN(DrawnOrgan drawn, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+    SEROSA_TRY(drawn.surface.prepareBlend());
+    SEROSA_TRY(impl_->organs.at(organ).surface.prepareBlend());
+    impl_->levels.resize(impl_->organs.size());
+    impl_->level.resize(impl_->organs.size(), 0);
+    if (impl_->levels.at(organ).empty())
+        impl_->levels[organ].emplace_back(); // its own
+    impl_->levels[organ].emplace_back(std::move(drawn));
+    return {};
+}
+
+void SurfaceRenderer::setLevel(std::size_t organ, std::size_t level) {
+    SEROSA_CHECK(level < impl_->levels.at(organ).size(), "a level that was added");
+    std::optional<DrawnOrgan>& next = impl_->levels[organ][level];
+    if (!next)
+        return; // it is drawn
+    impl_->levels[organ][impl_->level[organ]] = std::move(impl_->organs[organ]);
+    impl_->organs[organ] = std::move(*next);
+    next.reset();
+    impl_->level[organ] = level;
+    impl_->organs[organ].surface.setBlendFrame(SRS_BLEND_MOST_FRAMES);
+}
+
+void SurfaceRenderer::useLevel(std::size_t organ, std::size_t level, const sim::StateTextures& from,
+                               const sim::StateTextures& to, sim::Mapping mapping, double finest) {
+    SEROSA_CHECK(mapping != sim::Mapping::oneToOne, "a mapping of the detailed surface");
+    impl_->target.bind();
+    const SurfaceStage stage = stageOf(mapping);
+    DrawnOrgan& drawn = impl_->organs.at(organ);
+    const gpu::Buffer shown = drawn.surface.shown(from, stage);
+    const double spacing = drawn.placement.spacing;
+    const glm::dvec3 origin = drawn.placement.origin;
+    setLevel(organ, level); // `drawn` is another one now
+    drawn.surface.startBlend(to, stage, shown, float(spacing / drawn.placement.spacing),
+                             glm::vec3(drawn.placement.toLattice(origin)),
+                             float(SRS_BLEND_STEP * finest / drawn.placement.spacing));
+}
+
+void SurfaceRenderer::setBlendFrame(std::size_t organ, int frames) {
+    impl_->organs.at(organ).surface.setBlendFrame(float(frames));
+}
+
+std::vector<float> SurfaceRenderer::blend(std::size_t organ) const {
+    return impl_->organs.at(organ).surface.blend();
+}
+
+void SurfaceRenderer::setBlend(std::size_t organ, sim::Mapping mapping, const std::vector<float>& blend,
+                               double finest) {
+    DrawnOrgan& drawn = impl_->organs.at(organ);
+    drawn.surface.setBlend(stageOf(mapping), blend, float(SRS_BLEND_STEP * finest / drawn.placement.spacing));
 }
 
 void SurfaceRenderer::draw(const OrganStates& states, const View& view) {

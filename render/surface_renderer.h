@@ -48,6 +48,24 @@ public:
     Status addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                     const SurfaceBinding& binding, const sim::StateTextures& state);
 
+    /// One more level of detail of an organ (sim/lod.h): the same surface over another lattice. Its own is
+    /// level 0, those added follow.
+    Status addLevel(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                    const SurfaceBinding& binding, const sim::StateTextures& state);
+    /// Draws an organ on another level from now on.
+    void setLevel(std::size_t organ, std::size_t level);
+    /// The same, in motion, from its state `to`; `from` is what it was drawn from. The
+    /// surface stays where it was, and what the levels differ by fades in the frames to come
+    /// (setBlendFrame), no vertex by more than SRS_BLEND_STEP of `finest`, m, in one.
+    void useLevel(std::size_t organ, std::size_t level, const sim::StateTextures& from,
+                  const sim::StateTextures& to, sim::Mapping mapping, double finest);
+    /// Frames since an organ's last switch.
+    void setBlendFrame(std::size_t organ, int frames);
+    /// What fades, six floats a vertex in the order of the buffers; empty: nothing does. Reads back (stalls).
+    std::vector<float> blend(std::size_t organ) const;
+    /// Sets it again; the frame follows.
+    void setBlend(std::size_t organ, sim::Mapping mapping, const std::vector<float>& blend, double finest);
+
     /// After cuts: draws from now on what they left of an organ's surface (render/cut_faces.h). The arguments
     /// are those that the organ was added with; connections: 18 bits a node.
     void showCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,

@@ -158,3 +158,22 @@
 #define SRS_PAIR_FASTEST 4
 #define SRS_PAIR_LOADS 64
 #define SRS_PAIR_FIXED 16777216.0
+// Trees of boxes over an organ's boundary triangles (sim/node_tree.h)
+#define SRS_TREE_LEAF 4 // triangles a leaf
+#define SRS_TREE_LOG2_WIDTH 3
+#define SRS_TREE_WIDTH 8       // nodes below a node
+#define SRS_TREE_MOST_LEVELS 8 // of boxes: 67 million triangles
+#define SRS_TREE_NONE 0xffffffffu
+#define SRS_TREE_RAY 0 // queries
+#define SRS_TREE_CLOSEST 1
+#define SRS_TREE_IN_BOX 2
+#define SRS_TREE_IN_SPHERE 3
+#define SRS_TREE_CANDIDATES 64 // that a query of the last two kinds lists at most
+
+// Level of detail (sim/lod.h)
+#define SRS_LOD_LEAST_VOLUME 0.1    // of a coarse cell over its rest: below, its frame carries no detail
+#define SRS_LOD_SUMS 5              // vec4 of mass, momentum and inertia
+#define SRS_LOD_RUN 1024            // nodes that a group sums
+#define SRS_BLEND_FRAMES 10.0       // in which the drawing of one level turns into that of the next,
+#define SRS_BLEND_MOST_FRAMES 250.0 // or up to so many where it is far: a frame moves no vertex by more than
+#define SRS_BLEND_STEP 0.08         // of the finest level's spacing

@@ -19,6 +19,13 @@ layout(location = 3) in uint a_normal;  // packed, in the basis; bit 30: the bas
 layout(location = 4) in vec4 a_colour;  // square root of the linear colour; ambient light that arrives
 #endif
 
+#ifdef SURFACE_BLEND // after a switch of level of detail (lod_blend.vert)
+layout(location = 5) in vec3 a_blendOffset; // in the basis: what is missing to where the other level drew the vertex
+layout(location = 6) in vec3 a_blendNormal;
+uniform float u_blendFrames; // since the switch
+uniform float u_blendStep;   // lattice units that it may move the vertex a frame
+#endif
+
 uniform mat4 u_clipFromLattice;
 uniform vec4 u_section; // plane, lattice units: drawn where it is positive, if GL_CLIP_DISTANCE0 is on
 
@@ -40,8 +47,14 @@ void main() {
     v_dynamicNormal = v_normal;
     v_colour = u_colour;
 #else
-    Mapped mapped = mapVertex(a_texels, a_weights, a_offset, (a_normal & 0x40000000u) != 0u);
-    vec3 normal = unpackNormal(a_normal);
+    vec3 offset = a_offset, normal = unpackNormal(a_normal);
+#ifdef SURFACE_BLEND
+    float rate = u_blendStep / max(length(a_blendOffset), 1e-6);
+    float left = max(1.0 - u_blendFrames * clamp(rate, 1.0 / SRS_BLEND_MOST_FRAMES, 1.0 / SRS_BLEND_FRAMES), 0.0);
+    offset += left * a_blendOffset;
+    normal += left * a_blendNormal;
+#endif
+    Mapped mapped = mapVertex(a_texels, a_weights, offset, (a_normal & 0x40000000u) != 0u);
     v_position = mapped.position;
     v_normal = normal.x * mapped.t + normal.y * mapped.n + normal.z * mapped.b;
     v_dynamicNormal = mapped.n;

@@ -66,6 +66,17 @@ CellGrid gridAround(const glm::dvec3& lowest, const glm::dvec3& highest, double 
     return grid;
 }
 
+CellGrid gridThrough(const glm::dvec3& point, const glm::dvec3& lowest, const glm::dvec3& highest,
+                     double spacing) {
+    CellGrid grid;
+    grid.spacing = spacing;
+    const glm::dvec3 low = glm::floor((lowest - point) / spacing + 1e-6),
+                     high = glm::ceil((highest - point) / spacing - 1e-6);
+    grid.dims = glm::max(glm::ivec3(high - low), glm::ivec3(1));
+    grid.origin = point + spacing * low;
+    return grid;
+}
+
 std::vector<double> cellFills(const TriangleMesh& metres, const CellGrid& grid) {
     std::vector<double> fill(grid.count(), 0.0), beyond(grid.count(), 0.0);
     const glm::dvec3 top(grid.dims);

@@ -25,6 +25,10 @@ struct CellGrid {
 /// whole number of cells (to 1e-6 of one) get just that many.
 CellGrid gridAround(const glm::dvec3& lowest, const glm::dvec3& highest, double spacing);
 
+/// The smallest grid around the bounds that has a grid point at `point`, m.
+CellGrid gridThrough(const glm::dvec3& point, const glm::dvec3& lowest, const glm::dvec3& highest,
+                     double spacing);
+
 /// Share of each cell's volume inside the surface, 0 .. 1, index as CellGrid::index. `metres` is closed and
 /// wound outward, and lies inside the grid (points up to rounding outside are moved to its border). Nested
 /// cavities count as outside; where the surface crosses itself the winding number is clamped to 0 .. 1.

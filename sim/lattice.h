@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace serosa::sim {
@@ -24,6 +25,7 @@ extern const std::array<glm::ivec3, 18> kNeighbourOffsets;
 struct LatticeRequest {
     double spacing = 0; // m; 0: chosen for `nodes`
     std::size_t nodes = 20000;
+    std::optional<glm::dvec3> gridPoint; // m: a point of the grid lies here; else it is centred
     std::size_t maxBytes =
         0; // memory that the lattice and its textures may take; 0: 3/4 of what the machine has free
 };

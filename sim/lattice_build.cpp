@@ -50,8 +50,10 @@ struct Filled {
     std::vector<double> fills;
 };
 
-Filled fillAt(const TriangleMesh& metres, const glm::dvec3& low, const glm::dvec3& high, double spacing) {
-    Filled filled{gridAround(low, high, spacing), {}};
+Filled fillAt(const TriangleMesh& metres, const glm::dvec3& low, const glm::dvec3& high, double spacing,
+              const std::optional<glm::dvec3>& gridPoint = {}) {
+    Filled filled{gridPoint ? gridThrough(*gridPoint, low, high, spacing) : gridAround(low, high, spacing),
+                  {}};
     filled.fills = cellFills(metres, filled.grid);
     return filled;
 }
@@ -135,7 +137,7 @@ Result<Lattice> buildLattice(const TriangleMesh& metres, const LatticeRequest& r
     if (request.spacing > 0) {
         SEROSA_TRY(checkMemory(high - low, volume, request.spacing, maxBytes,
                                "a spacing of " + decimal(request.spacing * 1e3, 3) + " mm"));
-        filled = fillAt(metres, low, high, request.spacing);
+        filled = fillAt(metres, low, high, request.spacing, request.gridPoint);
     } else {
         SEROSA_ASSIGN(filled, fillForNodes(metres, low, high, volume, request.nodes, maxBytes));
     }

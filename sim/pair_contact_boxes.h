@@ -59,7 +59,8 @@ public:
             if (top_[t].distance2(point) < limit2)
                 for (std::size_t leaf = t * SRS_PAIR_BRANCH, end = last(leaf, leaves_); leaf < end; ++leaf)
                     if (leaves_[leaf].distance2(point) < limit2)
-                        for (std::size_t i = leaf * SRS_PAIR_BRANCH, stop = last(i, triangles_); i < stop; ++i)
+                        for (std::size_t i = leaf * SRS_PAIR_BRANCH, stop = last(i, triangles_); i < stop;
+                             ++i)
                             if (triangles_[i].distance2(point) < limit2)
                                 visit(i);
     }

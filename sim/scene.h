@@ -29,6 +29,12 @@ struct Pose {
     double bendRadius = 0; // m
 };
 
+/// From a time on an organ is simulated on a level of detail.
+struct LevelKey {
+    double time = 0; // s
+    int level = 1;
+};
+
 struct Organ {
     std::string name = "organ";
     std::filesystem::path model; // resolved against the scene file's folder
@@ -45,6 +51,11 @@ struct Organ {
         0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
+    // Level of detail (sim/lod.h): level 1 is the lattice above, each further one has twice its spacing.
+    int levels = 1;                      // at most kMostLevels
+    std::vector<LevelKey> levelKeys;     // rising times
+    bool levelsByRule = false;           // app/level_rule.h; else by the keys
+    std::optional<glm::dvec3> gridPoint; // m: of a further level, whose grid goes through it; no key
 };
 
 /// Name of `[organ.tissue]` among an organ's materials.

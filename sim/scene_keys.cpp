@@ -4,6 +4,7 @@
 #include "sim/scene_keys.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/lod.h"
 #include "sim/scene.h"
 
 #include <iomanip>
@@ -124,6 +125,15 @@ std::vector<SceneKey> generalKeys() {
         plain("organ", "region", Kind::tables, kAny, "", "cells of these materials; a later region wins"),
         plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
         plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
+        plain(
+            "organ", "levels", Kind::integer, {1, kMostLevels}, "1",
+            "levels of detail: lattices of the spacing, twice and four times it, one of which is simulated; "
+            "not beside a pose"),
+        word("organ", "level_of_detail", {"scripted", "auto"}, "\"scripted\"",
+             "which: as `[[organ.level]]` says, 1 without; or by what happens to the organ "
+             "(docs/methods/lod.md)"),
+        plain("organ", "level", Kind::tables, kAny, "",
+              "changes of level; a cut organ stays on its level, and a tool that holds tissue lets go first"),
     };
 }
 
@@ -171,6 +181,10 @@ std::vector<SceneKey> organKeys() {
                 "organ.pose", "bend_radius", Dim::length, kPositive, nullptr,
                 "all nodes follow a bend about the z axis, from straight to this radius over the run; the "
                 "ends go down"),
+
+            quantity("organ.level", "t", Dim::time, kNotNegative, nullptr, "from when on"),
+            plain("organ.level", "level", Kind::integer, {1, kMostLevels}, nullptr,
+                  "1: the lattice of `spacing` or `nodes`; 2, 3: coarser ones"),
         });
     return keys;
 }
@@ -344,8 +358,8 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const std::set<std::string> repeated{"organ", "organ.material", "organ.region", "organ.fixed",
-                                         "tool",  "body",           "cut"};
+    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region", "organ.fixed",
+                                         "organ.level", "tool",           "body",         "cut"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
     if (table == "cut.keys")

@@ -24,6 +24,37 @@ Status readModel(const SceneTable& table, const fs::path& folder, Organ& organ) 
     return {};
 }
 
+Status readLevels(const SceneSource& source, const SceneTable& table, const std::string& path, Organ& organ) {
+    SEROSA_TRY(table.read("levels", organ.levels));
+    enum class Way { scripted, byRule } way = Way::scripted;
+    SEROSA_TRY(table.readWord("level_of_detail", way));
+    organ.levelsByRule = way == Way::byRule;
+    SEROSA_ASSIGN(const auto keys, table.tables("level"));
+    for (const char* key : {"levels", "level_of_detail", "level"})
+        if (table.has(key) && table.has("pose"))
+            return table.errorAt(key, "has no effect beside 'pose': keep one of the two");
+    if (organ.levels == 1)
+        for (const char* key : {"level_of_detail", "level"})
+            if (table.has(key))
+                return table.errorAt(key, "has no effect on an organ of one level: set 'levels' to 2 or 3");
+    if (organ.levelsByRule && table.has("level"))
+        return table.errorAt("level", "has no effect beside level_of_detail = \"auto\": keep one of the two");
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const SceneTable keyTable(source, "organ.level", itemPath(path, "level", i), keys[i]);
+        SEROSA_TRY(keyTable.checkKeys());
+        LevelKey key;
+        SEROSA_TRY(keyTable.read("t", key.time));
+        SEROSA_TRY(keyTable.read("level", key.level));
+        if (key.level > organ.levels)
+            return keyTable.errorAt("level", "is " + std::to_string(key.level) + ", and the organ has " +
+                                                 std::to_string(organ.levels) + " levels: raise 'levels'");
+        if (!organ.levelKeys.empty() && key.time <= organ.levelKeys.back().time)
+            return keyTable.errorAt("t", "is not after the change before it: times must increase");
+        organ.levelKeys.push_back(key);
+    }
+    return {};
+}
+
 } // namespace
 
 Status readOrgan(const SceneSource& source, const toml::table& content, const std::string& path,
@@ -50,6 +81,7 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     SEROSA_TRY(readTissue(source, table, path, organ.tissue));
     SEROSA_TRY(readMaterialRegions(source, table, path, organ));
     SEROSA_TRY(readFixedRegions(source, table, path, organ));
+    SEROSA_TRY(readLevels(source, table, path, organ));
     SEROSA_ASSIGN(const toml::table* pose, table.table("pose"));
     if (pose) {
         const SceneTable poseTable(source, "organ.pose", path + ".pose", pose);

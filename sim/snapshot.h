@@ -31,6 +31,8 @@ struct OrganSnapshot {
     std::vector<CutLayer> layers;     // Solver::cutLayers()
     std::vector<glm::dvec3> impulses; // N s, one a tool: given to the organ, and not yet asked for
     std::uint64_t lastCut = 0;        // of the scene's cuts, that met the organ last
+    std::uint32_t level = 1;          // of detail, that the state is of
+    std::string levelState;           // what else its levels need, in the program's own bytes
 };
 
 struct Snapshot {

@@ -17,11 +17,11 @@ namespace {
 
 // As PNG's: not text, and damaged by whatever changes line ends.
 constexpr std::string_view kMagic("\x89SRS\r\n\x1a\n", 8);
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kHeaderBytes = 20;   // magic, version, length of the file
 constexpr std::size_t kChecksumBytes = 16; // of all bytes before it
 constexpr std::size_t kStrokeBytes = 8 + 1 + 1 + 14 * 8;
-constexpr std::size_t kLeastOrganBytes = 50;
+constexpr std::size_t kLeastOrganBytes = 58;
 
 bool isFloat32(double value) {
     return std::bit_cast<std::uint64_t>(double(float(value))) == std::bit_cast<std::uint64_t>(value);
@@ -92,6 +92,8 @@ void writeOrgan(ByteWriter& out, const OrganSnapshot& organ) {
     out.u32(std::uint32_t(organ.impulses.size()));
     writeVectors(out, organ.impulses, false);
     out.u64(organ.lastCut);
+    out.u32(organ.level);
+    out.text(organ.levelState);
 }
 
 std::vector<glm::dvec3> readVectors(ByteReader& in, std::size_t count, bool single) {
@@ -170,6 +172,8 @@ bool readOrgan(ByteReader& in, OrganSnapshot& organ) {
         return false;
     organ.impulses = readVectors(in, in.count(in.u32(), 24), false);
     organ.lastCut = in.u64();
+    organ.level = in.u32();
+    organ.levelState = in.text();
     return true;
 }
 

@@ -47,4 +47,8 @@ void Solver::moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm
     setState(now);
 }
 
+StateTextures* Solver::replaceState(std::int64_t) {
+    return nullptr;
+}
+
 } // namespace serosa::sim

@@ -104,6 +104,9 @@ public:
 
     /// The textures to draw from: the fragment solver's own (nothing is read back), or null for CPU solvers.
     virtual const StateTextures* textures() const { return nullptr; }
+    /// The same, for a pass that writes another state into them (sim/lod_pass.h), of step number `step`;
+    /// as after setState and forgetCuts.
+    virtual StateTextures* replaceState(std::int64_t step);
 
     // What couples organs reads and moves nodes between two steps (sim/organ_group.h), in textures() where
     // there are any. The defaults work for every solver through state() and setState().

@@ -39,6 +39,7 @@ private:
     friend class CellPass;
     friend class ContactPass;
     friend class CutPass;
+    friend class LodPass;
     friend class TextureSolver;
     friend class FragmentSolver;
     friend class ComputeSolver;

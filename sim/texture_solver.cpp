@@ -15,6 +15,13 @@ void TextureSolver::setState(const LatticeState& state) {
     step_ = state.step;
 }
 
+StateTextures* TextureSolver::replaceState(std::int64_t step) {
+    step_ = step;
+    cuts_.forget();
+    contact_.restart();
+    return &textures_;
+}
+
 Status TextureSolver::cut(const Stroke& stroke) {
     contact_.connectionsChanged();
     return cuts_.cut(textures_, lattice(), stroke);

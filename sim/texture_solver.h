@@ -29,6 +29,7 @@ public:
     std::vector<std::vector<ToolLoad>> flushFrames() override { return loads_.flush(); }
     Status cut(const Stroke& stroke) override;
     bool undoCut() override;
+    StateTextures* replaceState(std::int64_t step) override;
     void forgetCuts() override { cuts_.forget(); }
     std::vector<CutLayer> cutLayers() const override { return cuts_.layers(textures_); }
     Status setCutLayers(const std::vector<CutLayer>& layers) override {

@@ -150,6 +150,8 @@ const std::vector<VerifyGroup>& verifyGroups() {
          verifyContact},
         {"grasp", "what holds tissue: grip that slips at its force, torque, several at once", true,
          verifyGrasp},
+        {"lod", "switches of detail in motion, and the tree that answers picking and candidates", true,
+         verifyLod},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
     };
     return groups;

@@ -81,6 +81,9 @@ Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify/materials.cpp
 Status verifyFem(const VerifyOptions& options, CheckList& checks);       // app/verify/fem.cpp
 Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify/cuts.cpp
+Status verifyLod(const VerifyOptions& options, CheckList& checks);       // app/verify/lod.cpp
+/// The part of group `lod` about sim/node_tree.h.
+Status verifyNodeTree(const VerifyOptions& options, CheckList& checks);  // app/verify/node_tree.cpp
 Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify/stability.cpp
 Status verifyContact(const VerifyOptions& options, CheckList& checks);   // app/verify/contact.cpp
 Status verifyGrasp(const VerifyOptions& options, CheckList& checks);     // app/verify/grasp.cpp
