@@ -22,7 +22,7 @@ real distanceOut(int c, real3 p, real3 n, real target) {
             low = t;
         else
             high = t;
-        real next = slope > 0.1 ? t - gap / slope : t + abs(gap);
+        real next = slope > 0.01 ? t - gap / slope : t + abs(gap);
         if (!(next > low && next < high))
             next = high < kEndless ? real(0.5) * (low + high) : t + abs(gap);
         if (!(next > low && next < high)) // the bracket is one rounding wide

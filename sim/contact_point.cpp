@@ -25,7 +25,7 @@ double distanceOut(const RigidShape& shape, const glm::dvec3& p, const glm::dvec
         if (std::abs(gap) < 1e-12)
             return t;
         (gap < 0 ? low : high) = t;
-        double next = slope > 0.1 ? t - gap / slope : t + std::abs(gap);
+        double next = slope > 0.01 ? t - gap / slope : t + std::abs(gap);
         if (!(next > low && next < high))
             next = high < std::numeric_limits<double>::infinity() ? 0.5 * (low + high) : t + std::abs(gap);
         if (!(next > low && next < high)) // the bracket is one rounding wide

@@ -16,7 +16,7 @@ namespace serosa::sim {
 
 namespace {
 
-constexpr double kMargin = 0.5;     // spacings that blocks may move before their spheres are made anew
+constexpr double kMargin = 1;       // spacings that blocks may move before their spheres are made anew
 constexpr double kDeepest = 1;      // contactDepth
 constexpr double kMostShare = 1.25; // of a triangle's move, for a corner; equal ones need 1.21
 constexpr double kNearBy = 0.25;    // spacings: a triangle so near may touch once others have moved it
@@ -104,7 +104,7 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
         thin_.push_back(thinnestHalfWidth(collider.shape));
     drift_ = drift_ < 0 ? drift_ : drift_ + fastest;
     if (!(drift_ >= 0 && drift_ <= kMargin))
-        makeSpheres(nodes);
+        makeSpheres(nodes, fastest);
 
     updateHeld(nodes, heldBy);
     for (const std::uint32_t node : held_)
@@ -115,9 +115,9 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
                             nearNodes = nearBlocks(nodeSpheres_, false);
     load(nodes, surface_.triangleBlocks, nearTriangles);
     load(nodes, surface_.nodes, nearNodes);
-    std::vector<Candidate> triangles = candidates(nearTriangles);
+    const std::vector<Candidate> triangles = candidates(nearTriangles);
     for (int round = 0; round < SRS_CONTACT_ITERATIONS && !triangles.empty(); ++round)
-        if (!pushTriangles(triangles))
+        if (!pushTriangles(triangles, round > 0))
             break;
     pushNodes(nearNodes);
 
@@ -178,18 +178,18 @@ void ContactStage::moveHeld(std::vector<std::uint32_t>& heldBy) {
 
 // What is near.
 
-void ContactStage::makeSpheres(const ContactNodes& nodes) {
+void ContactStage::makeSpheres(const ContactNodes& nodes, double fastest) {
     const auto spheresOf = [&](const ContactBlocks& blocks) {
         std::vector<Sphere> spheres(blocks.blocks.size());
         tbb::parallel_for(std::size_t(0), spheres.size(), [&](std::size_t i) {
             const ContactBlock& block = blocks.blocks[i];
             glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-            for (std::uint32_t k = block.firstNode; k < block.firstNode + block.nodes; ++k)
-                for (const glm::dvec3& p : {nodes.start(blocks.nodes[k]), nodes.end(blocks.nodes[k])}) {
-                    low = glm::min(low, p);
-                    high = glm::max(high, p);
-                }
-            spheres[i] = {0.5 * (low + high), 0.5 * glm::length(high - low) + kMargin};
+            for (std::uint32_t k = block.firstNode; k < block.firstNode + block.nodes; ++k) {
+                const glm::dvec3 p = nodes.end(blocks.nodes[k]); // it started within `fastest` of it
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+            }
+            spheres[i] = {0.5 * (low + high), 0.5 * glm::length(high - low) + fastest + kMargin};
         });
         return spheres;
     };
@@ -301,14 +301,14 @@ bool ContactStage::ask(const Candidate& candidate, Asked& asked) const {
     return true;
 }
 
-bool ContactStage::pushTriangles(std::vector<Candidate>& candidates) {
+bool ContactStage::pushTriangles(const std::vector<Candidate>& candidates, bool again) {
     constexpr std::size_t kGrain = 64;
     std::vector<std::vector<Asked>> parts((candidates.size() + kGrain - 1) / kGrain);
     tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
         const std::size_t end = std::min(candidates.size(), (part + 1) * kGrain);
         Asked asked;
         for (std::size_t i = part * kGrain; i < end; ++i)
-            if (ask(candidates[i], asked))
+            if ((!again || movedLast(candidates[i].triangle)) && ask(candidates[i], asked))
                 parts[part].push_back(asked);
     });
     // Triangle by triangle, each once: of several colliders a corner takes the largest move.

@@ -91,12 +91,18 @@ private:
 
     void updateHeld(const ContactNodes& nodes, std::vector<std::uint32_t>& heldBy);
     void moveHeld(std::vector<std::uint32_t>& heldBy);
-    void makeSpheres(const ContactNodes& nodes);
+    void makeSpheres(const ContactNodes& nodes, double fastest);
     std::vector<Near> nearBlocks(const std::vector<Sphere>& spheres, bool triangles) const;
     void load(const ContactNodes& nodes, const ContactBlocks& blocks, const std::vector<Near>& near);
     void loadNode(const ContactNodes& nodes, std::uint32_t node);
     std::vector<Candidate> candidates(const std::vector<Near>& near) const;
-    bool pushTriangles(std::vector<Candidate>& candidates);
+    /// One round: did anything move? \param again those whose corners the last round left alone have no more
+    /// to ask.
+    bool pushTriangles(const std::vector<Candidate>& candidates, bool again);
+    bool movedLast(std::uint32_t triangle) const {
+        const glm::uvec3& t = surface_.triangles[triangle];
+        return asked_[t.x] == round_ || asked_[t.y] == round_ || asked_[t.z] == round_;
+    }
     bool ask(const Candidate& candidate, Asked& asked) const;
     void pushNodes(const std::vector<Near>& near);
 

@@ -81,6 +81,16 @@ Corners between(const Corners& y0, const Corners& y1, double s) {
     return {y0[0] + s * (y1[0] - y0[0]), y0[1] + s * (y1[1] - y0[1]), y0[2] + s * (y1[2] - y0[2])};
 }
 
+/// One distance says that no point of the triangle comes near on its way; kApart, as a field's slope may be a
+/// little above 1.
+bool surelyApart(const RigidShape& shape, const Corners& y1, const glm::dvec3& depth, double path) {
+    constexpr double kApart = 0.1;
+    const glm::dvec3 middle = (y1[0] + y1[1] + y1[2]) / 3.0;
+    const double reach =
+        std::max({glm::distance(middle, y1[0]), glm::distance(middle, y1[1]), glm::distance(middle, y1[2])});
+    return shapeLowerBound(shape, middle) > reach + path + std::max({depth.x, depth.y, depth.z}) + kApart;
+}
+
 /// Does the shape lie on the inner side of the triangle, behind the point of it that is nearest to it?
 bool fromInside(const RigidShape& shape, const Corners& y0, const glm::dvec3& depth) {
     const glm::dvec3 outward = glm::cross(y0[1] - y0[0], y0[2] - y0[0]);
@@ -109,10 +119,16 @@ TriangleContact triangleContact(const ContactShape& collider, const Corners& y0,
     const int samples = sweepSamples(path, collider.thin);
     // Most triangles do not even touch as a wall.
     glm::dvec3 depth = glm::max(surface, glm::min(surface, glm::dvec3(0)) + double(SRS_WALL));
+    if (surelyApart(collider.shape, y1, depth, path))
+        return {};
     TriangleGap deepest = firstTouch(collider.shape, y0, y1, depth, path, samples);
     if (deepest.gap < 0 && !fromInside(collider.shape, y0, surface)) {
+        const glm::dvec3 more = depth - surface;
         depth = surface;
-        deepest = firstTouch(collider.shape, y0, y1, depth, path, samples);
+        if (samples == 1 && more.x == more.y && more.y == more.z)
+            deepest.gap += more.x; // the same point
+        else
+            deepest = firstTouch(collider.shape, y0, y1, depth, path, samples);
     }
     if (!(deepest.gap < 0))
         return {};
