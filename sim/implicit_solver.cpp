@@ -64,8 +64,8 @@ public:
     std::vector<ToolLoad> takeLoads() override {
         const double unit =
             setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
-        std::vector<ToolLoad> taken(setup_.tools.size());
-        for (std::size_t tool = 0; tool < taken.size(); ++tool)
+        std::vector<ToolLoad> taken(setup_.tools.size() + setup_.bodies.size()); // of bodies: none yet
+        for (std::size_t tool = 0; tool < impulses_.size(); ++tool)
             taken[tool].impulse = impulses_[tool] * unit;
         impulses_.assign(impulses_.size(), glm::dvec3(0));
         return taken;

@@ -22,7 +22,8 @@ std::unique_ptr<sim::Solver> onGpu(const SolverSetup& setup, int layout = -1,
     return sim::makeImplicitTextureSolver(setup, "compute", layout, limits).value();
 }
 
-/// A ragged block of three materials, held at one side, pulled by forceps and cut.
+/// A ragged block of three materials, held at one side, and cut. (Tools: implicit steps do not meet them yet on
+/// the GPU.)
 struct Handled {
     Lattice lattice = test::patchedLattice(21, 4);
     SolverSetup setup;
@@ -33,18 +34,13 @@ struct Handled {
         setup.tissue = tissue;
         setup.gravity = {0, -9.81, 0};
         test::fixWhere(setup, [](const glm::ivec3& node) { return node.x == 0; });
-        const glm::dvec3 side = lattice.toWorld({2, 0, 0});
-        setup.tools = {{"forceps",
-                        sim::ToolMode::grasp,
-                        0.004,
-                        {{0.1, side}, {0.6, side + glm::dvec3(0.006, 0, 0)}, {0.7, side}}}};
         stroke.from = {lattice.toWorld({-0.6, 6, -6}), lattice.toWorld({-0.6, 6, 6})};
         stroke.to = {lattice.toWorld({-0.6, 0.3, -6}), lattice.toWorld({-0.6, 0.3, 6})};
     }
     Handled(const Handled&) = delete;
     Handled& operator=(const Handled&) = delete;
 
-    std::vector<LatticeState> run(sim::Solver& solver, std::vector<glm::dvec3>& impulses) const {
+    std::vector<LatticeState> run(sim::Solver& solver) const {
         std::vector<LatticeState> states;
         solver.setState(sim::startState(setup));
         for (int part = 0; part < 6; ++part) {
@@ -53,7 +49,6 @@ struct Handled {
                 EXPECT_TRUE(solver.cut(stroke).ok());
             }
             states.push_back(solver.state());
-            impulses.push_back(solver.takeLoads().front().impulse);
         }
         return states;
     }
@@ -107,14 +102,18 @@ TEST_F(GlImplicit, handlesAllThatMaterialsCanBe) {
             tissue.others.push_back(tissue.others[0]);
         const Handled body(tissue);
         const auto cpu = sim::makeImplicitCpuSolver(body.setup), gpu = onGpu(body.setup);
-        std::vector<glm::dvec3> impulses, cpuImpulses;
-        const std::vector<LatticeState> found = body.run(*gpu, impulses),
-                                        expected = body.run(*cpu, cpuImpulses);
-        EXPECT_GT(glm::length(cpuImpulses[3]), 1e-4); // the forceps hold
+        const std::vector<LatticeState> found = body.run(*gpu), expected = body.run(*cpu);
         EXPECT_FALSE(found.back().connections.empty());
-        for (std::size_t i = 0; i < found.size(); ++i) {
+        for (std::size_t i = 0; i < found.size(); ++i)
             EXPECT_LT(test::largestDistance(found[i], expected[i]), 0.02) << i;
-            EXPECT_LE(glm::distance(impulses[i], cpuImpulses[i]), 0.02 * glm::length(cpuImpulses[i])) << i;
-        }
     }
+}
+
+TEST_F(GlImplicit, refusesToolsThatItWouldNotMeet) {
+    const Lattice lattice = test::blockLattice(2, 2, 2);
+    SolverSetup setup = test::implicitSetup(lattice, 1000);
+    setup.bodies.resize(1);
+    const auto made = sim::makeImplicitTextureSolver(setup, "compute");
+    ASSERT_FALSE(made.ok());
+    EXPECT_NE(made.error().message.find("do not meet tools and bodies yet"), std::string::npos);
 }
