@@ -9,6 +9,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace serosa::sim {
 
 namespace {
@@ -153,14 +155,25 @@ private:
 
 } // namespace
 
-std::unique_ptr<Solver> makeImplicitReferenceSolver(const SolverSetup& setup, const ImplicitLimits& limits) {
+namespace {
+
+void checkSetup(const SolverSetup& setup) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
+    const bool pushes = std::any_of(setup.tools.begin(), setup.tools.end(),
+                                    [](const Tool& tool) { return tool.mode == ToolMode::push; });
+    SEROSA_CHECK(!pushes && setup.bodies.empty(), "no contact: implicit steps do not know it yet");
+}
+
+} // namespace
+
+std::unique_ptr<Solver> makeImplicitReferenceSolver(const SolverSetup& setup, const ImplicitLimits& limits) {
+    checkSetup(setup);
     return std::make_unique<ImplicitSolver<double>>(setup, "reference", false, 1, limits);
 }
 
 std::unique_ptr<Solver> makeImplicitCpuSolver(const SolverSetup& setup, int threads,
                                               const ImplicitLimits& limits) {
-    SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
+    checkSetup(setup);
     return std::make_unique<ImplicitSolver<float>>(setup, "cpu", true, threads, limits);
 }
 
