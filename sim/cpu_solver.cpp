@@ -132,7 +132,7 @@ public:
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const std::size_t slot = slotOf(nodes[i]);
             motions[i] = {glm::dvec3(positions_[current_].get(slot)),
-                          glm::dvec3(increments_[current_].get(slot)), heldBy_[slot] != 0};
+                          glm::dvec3(increments_[current_].get(slot)), heldBy_[nodes[i]] != 0};
         }
     }
     void moveNodes(std::span<const std::uint32_t> nodes, std::span<const glm::dvec3> by) override {
