@@ -35,7 +35,7 @@ Status readLevels(const SceneSource& source, const SceneTable& table, const std:
             return table.errorAt(key, "has no effect beside 'pose': keep one of the two");
     if (organ.levels == 1)
         for (const char* key : {"level_of_detail", "level"})
-            if (table.has(key))
+            if (table.has(key) && (key != std::string("level_of_detail") || organ.levelsByRule))
                 return table.errorAt(key, "has no effect on an organ of one level: set 'levels' to 2 or 3");
     if (organ.levelsByRule && table.has("level"))
         return table.errorAt("level", "has no effect beside level_of_detail = \"auto\": keep one of the two");

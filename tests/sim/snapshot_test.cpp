@@ -134,7 +134,7 @@ TEST(Snapshot, fileIsAsTheDocumentSays) {
     snapshot.frameRate = 60;
     std::string bytes = sim::snapshotBytes(snapshot);
     const char expected[] = "\x89SRS\r\n\x1a\n"
-                            "\x01\0\0\0"
+                            "\x02\0\0\0"
                             "\x44\0\0\0\0\0\0\0"
                             "\x03\0\0\0"
                             "0.1"
@@ -226,8 +226,8 @@ TEST(Snapshot, valuesBehindAFittingChecksumAreNotBelieved) {
 
 TEST(Snapshot, otherFormatIsNamed) {
     std::string bytes = sim::snapshotBytes(smallSnapshot(test::blockLattice(2, 2, 2)));
-    bytes[8] = 2;
-    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 2, and this program reads 1"),
+    bytes[8] = 1;
+    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 2"),
               std::string::npos);
     EXPECT_NE(refused(bytes).find("is damaged"), std::string::npos) << "a flipped bit is no other version";
     EXPECT_NE(refused("ply\nformat ascii 1.0\n").find("is not a snapshot"), std::string::npos);
