@@ -22,8 +22,8 @@ std::unique_ptr<sim::Solver> onGpu(const SolverSetup& setup, int layout = -1,
     return sim::makeImplicitTextureSolver(setup, "compute", layout, limits).value();
 }
 
-/// A ragged block of three materials, held at one side, and cut. (Tools: implicit steps do not meet them yet on
-/// the GPU.)
+/// A ragged block of three materials, held at one side, and cut. (Tools: implicit steps do not meet them yet
+/// on the GPU.)
 struct Handled {
     Lattice lattice = test::patchedLattice(21, 4);
     SolverSetup setup;

@@ -108,7 +108,7 @@ TEST_F(SceneTools, TurnsAlongAndAboutAxesAndKeepsThem) {
     };
     axes(0, {1, 0, 0}, {0, 0, 1});
     axes(1, {1, 0, 0}, {0, 1, 0});
-    axes(2, {1, 0, 0}, {0, 1, 0});  // as before
+    axes(2, {1, 0, 0}, {0, 1, 0}); // as before
     axes(3, {0, 1, 0}, {1, 0, 0}); // x goes to -z with z to x, then on about x
     axes(4, {0, 0, 1}, {-1, 0, 0});
     axes(5, {1, 0, 0}, {0, 0, -1});
