@@ -254,8 +254,8 @@ Status surface(const VerifyOptions& options, CheckList& checks) {
         active = level;
         std::vector<glm::dvec3> last = drawn();
         moves.jump = std::max(moves.jump, farthest(last, before) / h);
-        for (int i = 1; i <= 100; ++i) { // then all that is left at once: nothing may be
-            renderer->setBlendFrame(0, i < 100 ? i : int(SRS_BLEND_MOST_FRAMES));
+        for (int i = 1; i <= int(SRS_BLEND_MOST_FRAMES); ++i) {
+            renderer->setBlendFrame(0, i);
             const std::vector<glm::dvec3> next = drawn();
             moves.step = std::max(moves.step, farthest(next, last) / h);
             last = next;
