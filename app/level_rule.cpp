@@ -1,6 +1,8 @@
 // See app/level_rule.h.
 #include "app/level_rule.h"
 
+#include "sim/shape_distance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,24 +13,6 @@ namespace {
 constexpr double kNear = 4;                 // coarsest spacings from a tool
 constexpr int kFramesAhead = 20;            // that a tool or a cut is seen before it comes
 constexpr double kFast = 0.2, kCalm = 0.02; // finest spacings a frame
-
-/// Of a sphere about the reference point that holds the shape, m.
-double reachOf(const sim::RigidShape& shape) {
-    switch (shape.kind) {
-    case sim::ShapeKind::sphere:
-        return shape.radius;
-    case sim::ShapeKind::capsule:
-        return shape.radius + shape.length;
-    case sim::ShapeKind::box:
-        return shape.radius + glm::length(shape.middle) + glm::length(shape.halfSize);
-    case sim::ShapeKind::hook:
-        return shape.radius + shape.bend + shape.length;
-    case sim::ShapeKind::halfSpace:
-    case sim::ShapeKind::mesh:
-        break;
-    }
-    return INFINITY; // near, wherever it is
-}
 
 /// A sphere around the organ as it lies, m.
 struct Bounds {
@@ -46,7 +30,7 @@ Bounds boundsOf(const sim::Lattice& lattice, const sim::LatticeState& state) {
 
 bool toolNear(const sim::Scene& scene, const Bounds& organ, double distance, double now, double until) {
     for (const sim::Tool& tool : scene.tools) {
-        const double reach = reachOf(tool.wholeShape()) + organ.radius + distance;
+        const double reach = sim::boundingRadius(tool.wholeShape()) + organ.radius + distance;
         for (double time = now; time <= until; time += 0.25 * (until - now))
             if (tool.activeAt(time) && glm::distance(tool.poseAt(time).at, organ.centre) < reach)
                 return true;

@@ -5,6 +5,7 @@
 // A sum is left as one vec4 a work group; every work group of the pass that needs it adds them up again, in the same
 // order. So nothing is added atomically, nothing is read back, and no pass is needed for it alone.
 #include "shared_constants.h"
+#include "implicit_constants.h"
 layout(local_size_x = SRS_IMPLICIT_GROUP) in;
 
 layout(std430) buffer b_vectors { vec4 b_vector[]; }; // SRS_VEC_...

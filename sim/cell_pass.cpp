@@ -2,39 +2,11 @@
 #include "sim/cell_pass.h"
 
 #include "shaders/shared_constants.h"
+#include "sim/tissue_uniforms.h"
 
 #include <span>
 
 namespace serosa::sim {
-
-namespace {
-
-void setMaterials(gpu::Program& program, const Tissue& tissue) {
-    std::vector<float> bulks, recoveries, springs, youngs, bends, strains, gains;
-    for (const MaterialShares& material : materialShares(tissue)) {
-        bulks.push_back(float(material.bulk));
-        recoveries.push_back(float(material.recovery));
-        springs.insert(springs.end(), material.spring.begin(), material.spring.end());
-        youngs.push_back(float(material.young));
-        bends.push_back(float(material.bend));
-        for (std::size_t i = 0; i < SRS_CURVE_BREAKS; ++i) {
-            const CurveBreak turn = i < material.breaks.size() ? material.breaks[i] : CurveBreak{};
-            strains.push_back(float(turn.strain));
-            gains.push_back(float(turn.gain));
-        }
-    }
-    program.set("u_bulks", std::span<const float>(bulks));
-    program.set("u_recoveries", std::span<const float>(recoveries));
-    if (!tissue.stiffens())
-        return;
-    program.set("u_springs", std::span<const float>(springs));
-    program.set("u_youngs", std::span<const float>(youngs));
-    program.set("u_bends", std::span<const float>(bends));
-    program.set("u_breakStrains", std::span<const float>(strains));
-    program.set("u_breakGains", std::span<const float>(gains));
-}
-
-} // namespace
 
 Status CellPass::initialize(const SolverSetup& setup, const StateTextures& textures,
                             const std::vector<gpu::ShaderDefine>& defines, StepProgram& step, bool compute) {
@@ -62,7 +34,12 @@ Status CellPass::initialize(const SolverSetup& setup, const StateTextures& textu
         target_.setDrawBuffers(3);
         emptyVertices_ = gpu::VertexArray("no attributes");
     }
-    setMaterials(program_, setup.tissue);
+    const MaterialArrays materials(setup.tissue, setup.timeStep);
+    materials.setVolume(program_);
+    if (setup.tissue.stiffens()) {
+        program_.set("u_springs", std::span<const float>(materials.springs));
+        materials.setCurves(program_);
+    }
     if (layout.kind == SRS_LAYOUT_ROWS) {
         program_.image("i_rowOffsetsA", textures.rowOffsets_[0], GL_READ_ONLY);
         program_.image("i_rowOffsetsB", textures.rowOffsets_[1], GL_READ_ONLY);

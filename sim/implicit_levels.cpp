@@ -2,6 +2,7 @@
 #include "sim/implicit_levels.h"
 
 #include "base/check.h"
+#include "shaders/implicit_constants.h"
 #include "shaders/shared_constants.h"
 
 #include <algorithm>

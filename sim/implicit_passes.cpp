@@ -2,9 +2,11 @@
 #include "sim/implicit_passes.h"
 
 #include "base/check.h"
+#include "shaders/implicit_constants.h"
 #include "shaders/shared_constants.h"
 #include "sim/solver_program.h"
 #include "sim/tissue_field.h"
+#include "sim/tissue_uniforms.h"
 
 #include <algorithm>
 #include <span>
@@ -34,55 +36,17 @@ gpu::Buffer emptyBuffer(const std::string& label, std::size_t bytes) {
     return gpu::Buffer(label, bytes, zero.data());
 }
 
-/// Defines of the shaders: what the tissue asks for.
-std::vector<gpu::ShaderDefine> implicitDefines(const SolverSetup& setup) {
-    const Tissue& tissue = setup.tissue;
-    std::vector<gpu::ShaderDefine> defines = {{"SRS_MATERIALS", std::to_string(tissue.materialCount())},
-                                              {"SRS_TOOLS", std::to_string(setup.tools.size())}};
-    if (tissue.damped())
-        defines.push_back({"SRS_DAMPING", "1"});
-    if (tissue.ownDampers())
-        defines.push_back({"SRS_OWN_DAMPERS", "1"});
-    if (tissue.needsCellPass())
-        defines.push_back({"SRS_CELL_PASS", "1"});
-    if (tissue.volumetric())
-        defines.push_back({"SRS_VOLUME", "1"});
-    if (tissue.stiffens())
-        defines.push_back({"SRS_STIFFENING", "1"});
-    return defines;
-}
-
 /// \param volume the program has the volumetric term's, \param springs those of the springs
-void setMaterials(gpu::Program& program, const SolverSetup& setup, bool volume, bool springsToo) {
-    const Tissue& tissue = setup.tissue;
-    std::vector<float> springs, bulks, recoveries, dampingTimes, youngs, bends, strains, gains;
-    for (const MaterialShares& material : materialShares(tissue)) {
-        springs.insert(springs.end(), material.spring.begin(), material.spring.end());
-        bulks.push_back(float(material.bulk));
-        recoveries.push_back(float(material.recovery));
-        dampingTimes.push_back(float(material.dampingTime / setup.timeStep));
-        youngs.push_back(float(material.young));
-        bends.push_back(float(material.bend));
-        for (std::size_t i = 0; i < SRS_CURVE_BREAKS; ++i) {
-            const CurveBreak turn = i < material.breaks.size() ? material.breaks[i] : CurveBreak{};
-            strains.push_back(float(turn.strain));
-            gains.push_back(float(turn.gain));
-        }
-    }
-    if (springsToo || tissue.stiffens())
-        program.set("u_springs", std::span<const float>(springs));
-    if (volume) {
-        program.set("u_bulks", std::span<const float>(bulks));
-        program.set("u_recoveries", std::span<const float>(recoveries));
-    }
-    if (springsToo)
-        program.set("u_dampingTimes", std::span<const float>(dampingTimes));
-    if (!tissue.stiffens())
-        return;
-    program.set("u_youngs", std::span<const float>(youngs));
-    program.set("u_bends", std::span<const float>(bends));
-    program.set("u_breakStrains", std::span<const float>(strains));
-    program.set("u_breakGains", std::span<const float>(gains));
+void setMaterials(gpu::Program& program, const SolverSetup& setup, bool volume, bool springs) {
+    const MaterialArrays materials(setup.tissue, setup.timeStep);
+    if (springs || setup.tissue.stiffens())
+        program.set("u_springs", std::span<const float>(materials.springs));
+    if (volume)
+        materials.setVolume(program);
+    if (springs)
+        program.set("u_dampingTimes", std::span<const float>(materials.dampingTimes));
+    if (setup.tissue.stiffens())
+        materials.setCurves(program);
 }
 
 } // namespace
@@ -185,7 +149,8 @@ void ImplicitPasses::createConstants() {
 
 Status ImplicitPasses::createPrograms() {
     const gpu::ShaderLibrary library;
-    const std::vector<gpu::ShaderDefine> defines = implicitDefines(setup_);
+    std::vector<gpu::ShaderDefine> defines = tissueDefines(setup_.tissue);
+    defines.push_back({"SRS_TOOLS", std::to_string(setup_.tools.size())});
     const struct {
         gpu::Program* program;
         const char* file;

@@ -20,6 +20,7 @@
 
 #include "base/result.h"
 #include "gpu/program.h"
+#include "shaders/implicit_constants.h"
 #include "shaders/shared_constants.h"
 #include "sim/implicit_levels.h"
 #include "sim/implicit_stepper.h"

@@ -10,6 +10,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace serosa::sim {
 
@@ -92,7 +93,7 @@ private:
             step.guess.push_back(u);
             if (state_.heldBy[i] != 0) {
                 const ToolMotion& tool = tools[state_.heldBy[i] - 1];
-                increments[i] = Vector(tool.to - tool.from);
+                increments[i] = Vector(tool.carried(state_.positions[i]) - state_.positions[i]);
             } else if (!setup_.fixed[i]) {
                 step.share[i] = earlier.w > 0 ? Real(0.5) : Real(1);
                 if (earlier.w > 0) {
@@ -153,15 +154,13 @@ private:
     std::vector<glm::dvec3> impulses_; // mass shares times lattice units a step
 };
 
-} // namespace
-
-namespace {
-
 void checkSetup(const SolverSetup& setup) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
-    const bool pushes = std::any_of(setup.tools.begin(), setup.tools.end(),
-                                    [](const Tool& tool) { return tool.mode == ToolMode::push; });
-    SEROSA_CHECK(!pushes && setup.bodies.empty(), "no contact: implicit steps do not know it yet");
+    const bool firm = std::all_of(setup.tools.begin(), setup.tools.end(), [](const Tool& tool) {
+        return tool.mode == ToolMode::grasp && !std::isfinite(tool.gripForce);
+    });
+    SEROSA_CHECK(firm && setup.bodies.empty(),
+                 "grasps that do not slip, and no contact: implicit steps know no more yet");
 }
 
 } // namespace

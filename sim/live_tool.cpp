@@ -37,8 +37,7 @@ RigidPose LiveTool::poseAt(double time) const {
     if (after == samples_.end())
         return {a.at, a.turn};
     const ToolSample& b = after[0];
-    const double share = (time - a.time) / (b.time - a.time);
-    return {a.at + (b.at - a.at) * share, a.turn == b.turn ? a.turn : glm::slerp(a.turn, b.turn, share)};
+    return poseBetween({a.at, a.turn}, {b.at, b.turn}, (time - a.time) / (b.time - a.time));
 }
 
 bool LiveTool::activeAt(double time) const {

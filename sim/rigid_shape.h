@@ -31,6 +31,12 @@ struct RigidPose {
     glm::dvec3 toOwn(const glm::dvec3& world) const { return glm::conjugate(turn) * (world - at); }
 };
 
+/// From a (share 0) to b (1): places in a straight line, turns at an even rate; a turn that stays is not
+/// rounded.
+inline RigidPose poseBetween(const RigidPose& a, const RigidPose& b, double share) {
+    return {a.at + (b.at - a.at) * share, a.turn == b.turn ? a.turn : glm::slerp(a.turn, b.turn, share)};
+}
+
 enum class ShapeKind { sphere, capsule, box, hook, halfSpace, mesh };
 
 /// Lengths in metres; in lattice units where it says so (ToolMotion).

@@ -1,7 +1,7 @@
 // See sim/solver_program.h.
 #include "sim/solver_program.h"
 
-#include "shaders/shared_constants.h"
+#include "sim/tissue_uniforms.h"
 
 #include <bit>
 #include <span>
@@ -16,21 +16,12 @@ std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const Tex
         {"SRS_ROW_LOG2", std::to_string(std::countr_zero(unsigned(layout.width)))},
         {"SRS_EQUATION", options.printedForm ? "2" : "1"}};
     const Tissue& tissue = setup.tissue;
-    defines.push_back({"SRS_MATERIALS", std::to_string(tissue.materialCount())});
+    const std::vector<gpu::ShaderDefine> asked = tissueDefines(tissue);
+    defines.insert(defines.end(), asked.begin(), asked.end());
     if (tissue.materialCount() > 1 || tissue.fibrous() || tissue.stiffens())
         defines.push_back({"SRS_CELL_MATERIALS", "1"});
     if (tissue.fibrous())
         defines.push_back({"SRS_FIBRES", "1"});
-    if (tissue.damped())
-        defines.push_back({"SRS_DAMPING", "1"});
-    if (tissue.ownDampers())
-        defines.push_back({"SRS_OWN_DAMPERS", "1"});
-    if (tissue.needsCellPass())
-        defines.push_back({"SRS_CELL_PASS", "1"});
-    if (tissue.volumetric())
-        defines.push_back({"SRS_VOLUME", "1"});
-    if (tissue.stiffens())
-        defines.push_back({"SRS_STIFFENING", "1"});
     if (options.normals)
         defines.push_back({"SRS_NORMALS", "1"});
     if (!options.fills)
@@ -46,15 +37,10 @@ void setKernelUniforms(gpu::Program& program, const SolverSetup& setup) {
     program.set("u_drag", float(1 - setup.tissue.airDrag * dt));
     program.set("u_gravity", glm::vec3(setup.gravity * (dt * dt / h)));
     program.set("u_damping", float(setup.tissue.dampingTime / dt));
-    std::vector<float> springs, densities, dampingTimes;
-    for (const MaterialShares& material : materialShares(setup.tissue)) {
-        springs.insert(springs.end(), material.spring.begin(), material.spring.end());
-        densities.push_back(float(material.density));
-        dampingTimes.push_back(float(material.dampingTime / dt));
-    }
-    program.set("u_springs", std::span<const float>(springs));
-    program.set("u_densities", std::span<const float>(densities));
-    program.set("u_dampingTimes", std::span<const float>(dampingTimes));
+    const MaterialArrays materials(setup.tissue, dt);
+    program.set("u_springs", std::span<const float>(materials.springs));
+    program.set("u_densities", std::span<const float>(materials.densities));
+    program.set("u_dampingTimes", std::span<const float>(materials.dampingTimes));
 }
 
 double impulseUnit(const SolverSetup& setup) {

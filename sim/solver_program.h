@@ -10,9 +10,8 @@
 
 namespace serosa::sim {
 
-/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_EQUATION, SRS_MATERIALS,
-/// SRS_NORMALS, SRS_FULL_CELLS, SRS_TEXEL_FETCH, and what the tissue asks for: SRS_DAMPING,
-/// SRS_OWN_DAMPERS, SRS_CELL_MATERIALS, SRS_FIBRES, SRS_CELL_PASS with SRS_VOLUME and SRS_STIFFENING.
+/// SRS_LAYOUT and what lattice_address.glsl needs with it, SRS_EQUATION, SRS_NORMALS, SRS_FULL_CELLS,
+/// SRS_TEXEL_FETCH, and what the tissue asks for: tissueDefines, SRS_CELL_MATERIALS, SRS_FIBRES.
 std::vector<gpu::ShaderDefine> kernelDefines(const SolverSetup& setup, const TextureLayout& layout,
                                              const KernelOptions& options);
 /// What does not change between steps: stiffness, drag, gravity, damping, materials, in lattice units.

@@ -26,8 +26,7 @@ RigidPose Tool::poseAt(double time) const {
     if (after == keys.end())
         return {keys.back().at, keys.back().turn};
     const ToolKey &a = after[-1], &b = after[0];
-    const double share = (time - a.time) / (b.time - a.time);
-    return {a.at + (b.at - a.at) * share, a.turn == b.turn ? a.turn : glm::slerp(a.turn, b.turn, share)};
+    return poseBetween({a.at, a.turn}, {b.at, b.turn}, (time - a.time) / (b.time - a.time));
 }
 
 bool Tool::activeAt(double time) const {

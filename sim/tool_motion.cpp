@@ -15,9 +15,7 @@ glm::dvec3 ToolMotion::apply(const glm::dvec3& x, const glm::dvec3& free, bool h
         return held ? carried(x) : free;
     if (mode != SRS_TOOL_PUSH)
         return free;
-    RigidShape whole = shape;
-    whole.radius = radius;
-    const ContactShape collider{whole, thinnestHalfWidth(whole), friction};
+    const ContactShape collider{shape, thinnestHalfWidth(shape), friction};
     const glm::dvec3 y0 = ownAtStart(x), y1 = ownAtEnd(free);
     const glm::dvec3 move = pointContact(collider, y0, y1, contactDepthFor(depth, collider.thin),
                                          sweepSamples(glm::distance(y0, y1), collider.thin));
@@ -36,7 +34,6 @@ std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step)
         motion.turnFrom = from.turn;
         motion.turnTo = to.turn;
         motion.shape = scaledShape(tool.wholeShape(), 1 / setup.lattice->spacing);
-        motion.radius = motion.shape.radius;
         motion.friction = tool.friction;
         motion.grip = tool.gripForce * setup.timeStep * setup.timeStep /
                       (setup.tissue.nodeMass(setup.lattice->spacing) * setup.lattice->spacing);
@@ -62,7 +59,6 @@ std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t s
         motion.from = motion.to = setup.lattice->toLattice(body.pose.at);
         motion.turnFrom = motion.turnTo = body.pose.turn;
         motion.shape = scaledShape(body.shape, 1 / setup.lattice->spacing);
-        motion.radius = motion.shape.radius;
         motion.friction = body.friction;
         motions.push_back(motion);
     }

@@ -17,8 +17,7 @@ struct ToolMotion {
     bool opens = false;        // this step begins with letting all go
     glm::dvec3 from{0}, to{0}; // reference point at the step's start and end, lattice units
     glm::dquat turnFrom{1, 0, 0, 0}, turnTo{1, 0, 0, 0};
-    double radius = 0; // lattice units: the shape's
-    RigidShape shape;  // lattice units
+    RigidShape shape; // lattice units
     double friction = 0;
     double grip = std::numeric_limits<double>::infinity(); // impulse that a grasp can give in a step, mass
                                                            // shares times lattice units

@@ -125,10 +125,10 @@ TEST(Contact, neverSpeedsANodeUpAgainstTheTool) {
     for (int i = 0; i < 2000; ++i) {
         sim::ToolMotion tool;
         tool.mode = SRS_TOOL_PUSH;
-        tool.radius = 2;
+        tool.shape.radius = 2;
         tool.from = vector(1);
         tool.to = tool.from + vector(0.5);
-        const double depth = vector(1).x, reach = tool.radius + depth;
+        const double depth = vector(1).x, reach = tool.shape.radius + depth;
         const glm::dvec3 x = tool.from + glm::normalize(vector(1)) * reach * 1.000001; // touching
         const glm::dvec3 free = tool.to + vector(0.9 * reach);
         const glm::dvec3 after = tool.apply(x, free, false, depth);
@@ -145,7 +145,7 @@ TEST(Contact, neverSpeedsANodeUpAgainstTheTool) {
 TEST(Contact, whatLiesInsideComesOutSlowly) {
     sim::ToolMotion tool;
     tool.mode = SRS_TOOL_PUSH;
-    tool.radius = 3;
+    tool.shape.radius = 3;
     glm::dvec3 x(0.5, 0, 0);
     int steps = 0;
     for (; glm::length(x) < 3 - 1e-9 && steps < 1000; ++steps) {
