@@ -71,6 +71,7 @@ ContactStage::ContactStage(const SolverSetup& setup, std::vector<double> mass)
     seen_.assign(count, 0);
     asked_.assign(count, 0);
     granted_.resize(count);
+    mover_.assign(count, 0);
     connect(lattice.connections);
 }
 
@@ -96,6 +97,46 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
                        std::vector<std::uint32_t>& heldBy) {
     if (empty())
         return;
+    place(step, nodes, fastest);
+    updateHeld(nodes, heldBy);
+    for (const std::uint32_t node : held_)
+        loadNode(nodes, node);
+    moveHeld(heldBy);
+    pushAll(nodes);
+    applyMoves(nodes);
+}
+
+void ContactStage::push(std::int64_t step, ContactNodes& nodes, double fastest) {
+    if (empty())
+        return;
+    place(step, nodes, fastest);
+    pushAll(nodes);
+    applyMoves(nodes);
+}
+
+std::vector<ContactStage::Push> ContactStage::pushes(std::int64_t step, const ContactNodes& nodes,
+                                                     double fastest, Friction friction) {
+    std::vector<Push> pushes;
+    if (empty())
+        return pushes;
+    reset(); // these are no moves
+    place(step, nodes, fastest);
+    if (friction == Friction::none)
+        for (ToolMotion& collider : colliders_)
+            collider.friction = 0;
+    const std::vector<Load> before = loads_;
+    pushAll(nodes);
+    loads_ = before;
+    reset();
+    for (const std::uint32_t node : loaded_)
+        if (const glm::dvec3 by = end_[node] - free_[node]; by != glm::dvec3(0))
+            pushes.push_back({node, mover_[node], by});
+    std::sort(pushes.begin(), pushes.end(), [](const Push& a, const Push& b) { return a.node < b.node; });
+    return pushes;
+}
+
+/// Colliders, and what may be near them.
+void ContactStage::place(std::int64_t step, const ContactNodes& nodes, double fastest) {
     ++run_;
     loaded_.clear();
     colliders_ = colliderMotions(setup_, step);
@@ -105,12 +146,9 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
     drift_ = drift_ < 0 ? drift_ : drift_ + fastest;
     if (!(drift_ >= 0 && drift_ <= kMargin))
         makeSpheres(nodes, fastest);
+}
 
-    updateHeld(nodes, heldBy);
-    for (const std::uint32_t node : held_)
-        loadNode(nodes, node);
-    moveHeld(heldBy);
-
+void ContactStage::pushAll(const ContactNodes& nodes) {
     const std::vector<Near> nearTriangles = nearBlocks(triangleSpheres_, true),
                             nearNodes = nearBlocks(nodeSpheres_, false);
     load(nodes, surface_.triangleBlocks, nearTriangles);
@@ -120,7 +158,9 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
         if (!pushTriangles(triangles, round > 0))
             break;
     pushNodes(nearNodes);
+}
 
+void ContactStage::applyMoves(ContactNodes& nodes) {
     double furthest2 = 0;
     for (const std::uint32_t node : loaded_) {
         const glm::dvec3 by = end_[node] - free_[node];
@@ -345,6 +385,7 @@ bool ContactStage::pushTriangles(const std::vector<Candidate>& candidates, bool 
             return;
         const glm::dvec3 more = by * (lacks / length2);
         granted_[node] += more;
+        mover_[node] = collider;
         loads_[collider].add(colliders_[collider], mass_[node], start_[node], more);
     };
     for (const Asked& asked : all)
@@ -378,6 +419,7 @@ void ContactStage::pushNodes(const std::vector<Near>& near) {
                 const glm::dvec3 by = motion.turnTo * move;
                 loads[i][collider].add(motion, mass_[node], start_[node], by);
                 end_[node] += by;
+                mover_[node] = std::uint32_t(collider);
             }
         }
     });

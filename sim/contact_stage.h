@@ -36,7 +36,7 @@ public:
     /// Where a node was when the step began, and where forces alone took it. From several threads at once.
     virtual glm::dvec3 start(std::uint32_t node) const = 0;
     virtual glm::dvec3 end(std::uint32_t node) const = 0;
-    /// Adds to the node's end and to its increment.
+    /// Adds to the node's end and to its increment. Not called for what is only asked.
     virtual void move(std::uint32_t node, const glm::dvec3& by) = 0;
 };
 
@@ -55,6 +55,28 @@ public:
     /// \param step its number, as toolMotions. \param fastest no node's increment is longer
     /// \param heldBy one a node, as LatticeState::heldBy; changed
     void run(std::int64_t step, ContactNodes& nodes, double fastest, std::vector<std::uint32_t>& heldBy);
+
+    /// Points 2 and 3 alone, for implicit steps: whoever is held by no grasp of this stage. \param fastest as
+    /// run
+    void push(std::int64_t step, ContactNodes& nodes, double fastest);
+
+    /// Of one node, lattice units: where points 2 and 3 would move it.
+    struct Push {
+        std::uint32_t node = 0, collider = 0; // the one that moved it last
+        glm::dvec3 move{0};
+    };
+    enum class Friction { asGiven, none };
+    /// What push() would do, without doing it: nothing moves, and no load is counted.
+    std::vector<Push> pushes(std::int64_t step, const ContactNodes& nodes, double fastest, Friction friction);
+    /// Of the last step asked for.
+    const std::vector<ToolMotion>& colliders() const { return colliders_; }
+    /// Counts what a collider gave to a node in another way. \param x where it began the step, lattice units.
+    /// \param impulse mass shares times lattice units
+    void addLoad(std::size_t collider, const glm::dvec3& x, const glm::dvec3& impulse) {
+        loads_[collider].add(colliders_[collider], 1, x, impulse);
+    }
+    /// 0 for fixed nodes.
+    double inverseMass(std::uint32_t node) const { return inverseMass_[node]; }
 
     /// Since the last call, one a collider.
     std::vector<ToolLoad> takeLoads();
@@ -89,6 +111,9 @@ private:
         }
     };
 
+    void place(std::int64_t step, const ContactNodes& nodes, double fastest);
+    void pushAll(const ContactNodes& nodes);
+    void applyMoves(ContactNodes& nodes);
     void updateHeld(const ContactNodes& nodes, std::vector<std::uint32_t>& heldBy);
     void moveHeld(std::vector<std::uint32_t>& heldBy);
     void makeSpheres(const ContactNodes& nodes, double fastest);
@@ -118,7 +143,7 @@ private:
     // Of the nodes that this step looks at; `seen_` says of which step they are.
     std::vector<glm::dvec3> start_, end_, free_;
     std::vector<std::int64_t> seen_;
-    std::vector<std::uint32_t> loaded_;
+    std::vector<std::uint32_t> loaded_, mover_; // mover_: the collider that moved it last
     std::int64_t run_ = 0;
     // Of the nodes that this round moves.
     std::vector<std::int64_t> asked_;

@@ -127,6 +127,8 @@ void ImplicitSystem<Real>::coarsen() {
             Matrix anchored, inside;
             if (!step_.isHeld(i)) {
                 anchored = Matrix::identity(mass_[i] * (1 / step_.share[i] + drag_));
+                if (!supports_.empty())
+                    anchored += supports_[i].stiffness;
                 for (std::size_t d = 0; d < SRS_NEIGHBOURS; ++d) {
                     const Spring& spring = springs_[i * SRS_NEIGHBOURS + d];
                     if (spring.other < 0)

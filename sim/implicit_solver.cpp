@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 #include "shaders/shared_constants.h"
+#include "sim/implicit_contact.h"
 #include "sim/implicit_system-inl.h"
 #include "sim/packed_normal.h"
 #include "sim/tool_motion.h"
@@ -25,8 +26,8 @@ public:
     ImplicitSolver(const SolverSetup& setup, const char* name, bool parallel, int threads,
                    const ImplicitLimits& limits)
         : setup_(setup), name_(name), arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-          stepper_(setup, parallel, limits), state_(restState(*setup.lattice)),
-          impulses_(setup.tools.size(), glm::dvec3(0)) {
+          stepper_(setup, parallel, limits), contact_(setup, stepper_.system()),
+          state_(restState(*setup.lattice)) {
         if (setup_.fixed.empty())
             setup_.fixed.assign(setup.lattice->nodeCount(), false);
         setState(state_);
@@ -51,9 +52,11 @@ public:
                          (state.connections.empty() || state.connections.size() == count) &&
                          (state.earlier.empty() || state.earlier.size() == count),
                      "a state of this lattice");
-        if (state.connections != state_.connections)
-            stepper_.system().connect(state.connections.empty() ? setup_.lattice->connections
-                                                                : state.connections);
+        if (state.connections != state_.connections) {
+            const auto& left = state.connections.empty() ? setup_.lattice->connections : state.connections;
+            stepper_.system().connect(left);
+            contact_.connect(left);
+        }
         state_ = state;
         for (std::size_t i = 0; i < count; ++i) { // as this solver keeps them
             state_.positions[i] = glm::dvec3(Vector(state.positions[i]));
@@ -64,15 +67,7 @@ public:
             earlier = glm::dvec4(glm::vec<4, Real>(earlier));
     }
 
-    std::vector<ToolLoad> takeLoads() override {
-        const double unit =
-            setup_.tissue.nodeMass(setup_.lattice->spacing) * setup_.lattice->spacing / setup_.timeStep;
-        std::vector<ToolLoad> taken(setup_.tools.size() + setup_.bodies.size()); // of bodies: none yet
-        for (std::size_t tool = 0; tool < impulses_.size(); ++tool)
-            taken[tool].impulse = impulses_[tool] * unit;
-        impulses_.assign(impulses_.size(), glm::dvec3(0));
-        return taken;
-    }
+    std::vector<ToolLoad> takeLoads() override { return contact_.takeLoads(); }
 
 private:
     void step() {
@@ -91,8 +86,9 @@ private:
             const glm::dvec4& earlier = state_.earlier[i];
             step.expected.push_back(u);
             step.guess.push_back(u);
-            if (state_.heldBy[i] != 0) {
-                const ToolMotion& tool = tools[state_.heldBy[i] - 1];
+            const std::uint32_t holder = state_.heldBy[i];
+            if (holder != 0 && !std::isfinite(tools[holder - 1].grip)) {
+                const ToolMotion& tool = tools[holder - 1];
                 increments[i] = Vector(tool.carried(state_.positions[i]) - state_.positions[i]);
             } else if (!setup_.fixed[i]) {
                 step.share[i] = earlier.w > 0 ? Real(0.5) : Real(1);
@@ -103,23 +99,52 @@ private:
                 }
             }
         }
-        stepper_.system().begin(std::move(step));
-        stepper_.solve(increments);
-        finish(increments, tools);
+        guessTouched(step);
+        ImplicitSystem<Real>& system = stepper_.system();
+        system.begin(std::move(step));
+        if (contact_.empty()) {
+            stepper_.solve(increments);
+        } else {
+            contact_.begin(state_.step, tools, state_.earlier, state_.heldBy);
+            stepper_.solve(increments, [&](const Vectors& at, int round) {
+                return contact_.support(system, at, stepper_.lastStep(), round);
+            });
+        }
+        finish(increments);
     }
 
-    void finish(const Vectors& increments, const std::vector<ToolMotion>& tools) {
-        ImplicitSystem<Real>& system = stepper_.system();
-        if (!tools.empty()) {
-            Vectors given(increments.size());
-            system.gradient(increments, given);
-            for (std::size_t i = 0; i < given.size(); ++i)
-                if (state_.heldBy[i] != 0)
-                    impulses_[state_.heldBy[i] - 1] += glm::dvec3(given[i]);
+    /// Touched nodes have no increment before the last: the search begins with the mean change of their
+    /// neighbours' that have one.
+    void guessTouched(typename ImplicitSystem<Real>::Step& step) const {
+        const Lattice& lattice = *setup_.lattice;
+        const auto& connections = state_.connections.empty() ? lattice.connections : state_.connections;
+        for (std::size_t i = 0; i < step.guess.size(); ++i) {
+            if (state_.earlier[i].w >= 0 || step.isHeld(i))
+                continue;
+            Vector sum(0);
+            int count = 0;
+            for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
+                if (!(connections[i] >> d & 1u))
+                    continue;
+                const std::size_t other = std::size_t(lattice.neighbour(i, d));
+                if (state_.earlier[other].w > 0 && !step.isHeld(other)) {
+                    sum += Vector(state_.increments[other] - glm::dvec3(state_.earlier[other]));
+                    ++count;
+                }
+            }
+            if (count > 0)
+                step.guess[i] += sum / Real(count);
         }
+    }
+
+    void finish(Vectors& increments) {
+        ImplicitSystem<Real>& system = stepper_.system();
+        std::vector<glm::dvec4> touched;
+        contact_.finish(system, state_.increments, stepper_.lastStep(), increments, touched);
         for (std::size_t i = 0; i < increments.size(); ++i) {
-            const bool free = !system.step().isHeld(i);
-            state_.earlier[i] = free ? glm::dvec4(state_.increments[i], 1) : glm::dvec4(0);
+            const bool free = !system.step().isHeld(i) && touched[i].w == 0;
+            state_.earlier[i] =
+                free ? glm::dvec4(state_.increments[i], 1) : glm::dvec4(glm::vec<4, Real>(touched[i]));
             state_.positions[i] = glm::dvec3(system.step().positions[i] + increments[i]);
             state_.increments[i] = glm::dvec3(increments[i]);
         }
@@ -150,17 +175,13 @@ private:
     const char* name_;
     tbb::task_arena arena_;
     ImplicitStepper<Real> stepper_;
+    ImplicitContact<Real> contact_;
     LatticeState state_;
-    std::vector<glm::dvec3> impulses_; // mass shares times lattice units a step
 };
 
 void checkSetup(const SolverSetup& setup) {
     SEROSA_CHECK(setup.lattice && setup.timeStep > 0, "a lattice and a time step");
-    const bool firm = std::all_of(setup.tools.begin(), setup.tools.end(), [](const Tool& tool) {
-        return tool.mode == ToolMode::grasp && !std::isfinite(tool.gripForce);
-    });
-    SEROSA_CHECK(firm && setup.bodies.empty(),
-                 "grasps that do not slip, and no contact: implicit steps know no more yet");
+    SEROSA_CHECK(setup.tools.size() <= SRS_MAX_TOOLS, "at most SRS_MAX_TOOLS tools");
 }
 
 } // namespace

@@ -11,16 +11,17 @@ namespace {
 
 // Of a Newton step, largest first: the first that lets Phi fall is taken.
 constexpr std::array<double, 4> kShares = {1, 0.5, 0.2, 0.04};
-constexpr double kFall = 1e-4; // of what the gradient promises (Armijo)
+constexpr double kSupported = 0.1; // of the accuracy, where anything touches
+constexpr double kFall = 1e-4;     // of what the gradient promises (Armijo)
 
 } // namespace
 
 ImplicitLimits exactLimits() {
-    return {20, 400, 1e-6, 1e-9};
+    return {20, 400, 1e-6, 1e-9, 20};
 }
 
 ImplicitLimits frameLimits() {
-    return {3, 40, 1e-2, 1e-5};
+    return {3, 40, 1e-2, 1e-5, 6};
 }
 
 template <class Real>
@@ -81,10 +82,12 @@ double ImplicitStepper<Real>::newtonStep(Vectors& increments, int round) {
     }
     system_.precondition(residual_, preconditioned_);
     double size = system_.dot(residual_, preconditioned_);
-    if (round == 0)
+    if (round == 0 || !system_.supports().empty())
         firstResidual_ = size;
-    const double goal = std::max(limits_.accuracy * limits_.accuracy * firstResidual_,
-                                 limits_.floor * limits_.floor * system_.totalMass());
+    // What supports give is settled round by round, each from the last one's.
+    const double accuracy = system_.supports().empty() ? limits_.accuracy : kSupported * limits_.accuracy;
+    const double goal =
+        std::max(accuracy * accuracy * firstResidual_, limits_.floor * limits_.floor * system_.totalMass());
     direction_ = preconditioned_;
     for (int i = 0; i < limits_.iterations && size > goal; ++i) {
         system_.apply(direction_, product_);
@@ -113,20 +116,24 @@ double ImplicitStepper<Real>::newtonStep(Vectors& increments, int round) {
     effort_.leastShare = std::min(effort_.leastShare, share);
     double moved = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        increments[i] += Real(share) * step_[i];
+        step_[i] *= Real(share);
+        increments[i] += step_[i];
         moved += system_.mass(i) * double(glm::dot(step_[i], step_[i]));
     }
-    return share * std::sqrt(moved / system_.totalMass());
+    return std::sqrt(moved / system_.totalMass());
 }
 
 template <class Real>
-void ImplicitStepper<Real>::solve(Vectors& increments) {
+void ImplicitStepper<Real>::solve(Vectors& increments, const BeforeRound& beforeRound) {
     SEROSA_CHECK(increments.size() == system_.nodes(), "an increment of every node");
     effort_ = {};
     start(increments);
-    for (int round = 0; round < limits_.rounds; ++round)
-        if (newtonStep(increments, round) <= limits_.floor)
+    for (int round = 0, wanted = limits_.rounds; round < wanted; ++round) {
+        const bool supported = beforeRound && beforeRound(increments, round);
+        wanted = supported ? limits_.supportedRounds : wanted;
+        if (newtonStep(increments, round) <= limits_.floor && (!supported || round + 1 >= limits_.rounds))
             break;
+    }
     for (std::size_t i = 0; i < increments.size(); ++i)
         if (system_.step().isHeld(i))
             increments[i] = held_[i];

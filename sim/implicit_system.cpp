@@ -120,6 +120,21 @@ void ImplicitSystem<Real>::begin(Step step) {
                      step.share.size() == nodes(),
                  "a value of each kind for every node");
     step_ = std::move(step);
+    supports_.clear();
+}
+
+template <class Real>
+Real ImplicitSystem<Real>::restStiffness(std::size_t node) const {
+    Real sum = 2 * mass_[node];
+    for (std::size_t d = 0; d < SRS_NEIGHBOURS; ++d) {
+        const Spring& spring = springs_[node * SRS_NEIGHBOURS + d];
+        if (spring.other >= 0)
+            sum += Real(1.0 / 3) * (Real(scale_ * field_.springWeight(node, int(d))) + spring.damper);
+    }
+    for (const std::int32_t cell : shapes_[0].cellsAround[node])
+        if (cell >= 0)
+            sum += Real(1.0 / 16) * cells_[std::size_t(cell)].bulk; // |g|^2 / 3
+    return sum;
 }
 
 template <class Real>
@@ -186,6 +201,8 @@ void ImplicitSystem<Real>::gradient(const Vectors& increments, Vectors& result) 
             const Real share = step_.isHeld(i) ? Real(1) : step_.share[i];
             sum += mass_[i] *
                    ((increments[i] - step_.expected[i]) / share + drag_ * increments[i] - step_.gravity);
+            if (!supports_.empty())
+                sum -= supports_[i].force;
             result[i] = sum;
         }
     });
@@ -227,6 +244,13 @@ std::array<double, 4> ImplicitSystem<Real>::changes(const Vectors& increments, c
                      square = double(glm::dot(p, p)) * double(1 / step_.share[i] + drag_);
         for (std::size_t k = 0; k < shares.size(); ++k)
             sum[k] += double(mass_[i]) * shares[k] * (pull + 0.5 * shares[k] * square);
+        if (supports_.empty())
+            return;
+        const Support& support = supports_[i];
+        const double given = double(glm::dot(p, support.force)),
+                     stiffness = double(glm::dot(p, support.stiffness * p));
+        for (std::size_t k = 0; k < shares.size(); ++k)
+            sum[k] += shares[k] * (0.5 * shares[k] * stiffness - given);
     });
     if (volumetric) {
         const std::array<double, 4> cells =
@@ -324,6 +348,8 @@ void ImplicitSystem<Real>::apply(const Vectors& p, Vectors& result) {
                 continue;
             }
             Vector sum = mass_[i] * (1 / step_.share[i] + drag_) * p[i];
+            if (!supports_.empty())
+                sum += supports_[i].stiffness * p[i];
             for (std::size_t d = 0; d < SRS_NEIGHBOURS; ++d) {
                 const Spring& spring = springs_[i * SRS_NEIGHBOURS + d];
                 if (spring.other < 0)

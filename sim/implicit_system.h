@@ -36,6 +36,7 @@ struct Symmetric3 {
         xx += o.xx, yy += o.yy, zz += o.zz, xy += o.xy, yz += o.yz, zx += o.zx;
         return *this;
     }
+    friend Symmetric3 operator+(Symmetric3 a, const Symmetric3& b) { return a += b; }
     friend Symmetric3 operator*(Real s, const Symmetric3& m) {
         return {s * m.xx, s * m.yy, s * m.zz, s * m.xy, s * m.yz, s * m.zx};
     }
@@ -76,6 +77,18 @@ public:
     };
     void begin(Step step);
     const Step& step() const { return step_; }
+
+    /// What else acts on a node near the increments that it was asked at: Phi grows there by
+    /// -force . p + p . stiffness p / 2 for a change p of them. \see sim/implicit_contact.h
+    struct Support {
+        Vector force{0};
+        Matrix stiffness; // positive
+    };
+    /// One a node, or none at all. begin() takes them away.
+    void support(std::vector<Support> supports) { supports_ = std::move(supports); }
+    const std::vector<Support>& supports() const { return supports_; }
+    /// Of a node alone against the rest of the organ, as it rests: a third of its block's trace.
+    Real restStiffness(std::size_t node) const;
 
     /// Phi's gradient with respect to u', a force; at held nodes what holds them has to give.
     void gradient(const Vectors& increments, Vectors& result);
@@ -154,6 +167,7 @@ private:
     Stiffening stiffening_;
     std::vector<double> factors_, tangents_; // one a cell, where cells stiffen
     Step step_;
+    std::vector<Support> supports_;
     std::vector<Level> levels_;
     std::vector<Real> coarsest_; // inverse of the dense matrix of the last level, row after row
     Vectors places_;             // x + u'

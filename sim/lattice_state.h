@@ -18,7 +18,8 @@ struct LatticeState {
     // 18 bits a node, as Lattice::connections: what cuts left of them. Empty: nothing was ever cut.
     std::vector<std::uint32_t> connections;
     // Of implicit steps: xyz the increment before `increments`, w 1; 0 for a node that has none, because it
-    // starts, was held or was touched. Empty: as 0 for all (explicit steps leave it so).
+    // starts or was held; xyz what contact gave it (mass shares times lattice units), w -1 where it stuck, -2
+    // where it slid. Empty: as 0 for all (explicit steps leave it so).
     std::vector<glm::dvec4> earlier;
 
     /// 128-bit hash (XXH3, hex) of the float32 values: equal for byte-equal snapshots of the GPU state.
