@@ -38,6 +38,8 @@ real3 turnedBack(real4 q, real3 v) { return v + real(2.0) * cross(q.xyz, cross(q
 
 int modeOf(int c) { return b_collider[c].kind.x; }
 int shapeOf(int c) { return b_collider[c].kind.y; }
+/// Does a grasp hold whatever pulls?
+bool holdsEndlessly(int c) { return b_collider[c].to.w >= real(1e29); } // sim/contact_colliders.cpp
 real thinOf(int c) { return b_collider[c].size.w; }
 real3 ownAtStart(int c, real3 x) { return turnedBack(b_collider[c].turnFrom, x - b_collider[c].from.xyz); }
 real3 ownAtEnd(int c, real3 x) { return turnedBack(b_collider[c].turnTo, x - b_collider[c].to.xyz); }

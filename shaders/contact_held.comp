@@ -12,8 +12,6 @@ layout(rgba32f) uniform readonly restrict image2D i_start;
 layout(rgba32f) uniform restrict image2D i_positions;
 layout(rgba32f) uniform restrict image2D i_increments;
 
-const float kEndlessGrip = 1e29; // sim/contact_colliders.cpp
-
 void main() {
     uint item = gl_GlobalInvocationID.x;
     if (item < 8u)
@@ -40,7 +38,7 @@ void main() {
         imageStore(i_positions, texel, vec4(end, free.w));
         imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(by, 0.0));
         addLoad(c, mass, x, by);
-        if (grip < kEndlessGrip && sampleShape(c, ownAtEnd(c, real3(end))).w > SRS_GRIP_SLACK) {
+        if (!holdsEndlessly(c) && sampleShape(c, ownAtEnd(c, real3(end))).w > SRS_GRIP_SLACK) {
             info.x &= ~(SRS_HELD_MASK << SRS_HELD_SHIFT);
             imageStore(i_nodeInfo, texel, info);
             return;

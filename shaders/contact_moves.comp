@@ -3,7 +3,9 @@
 #version 450 core
 layout(local_size_x = 64) in;
 #include "contact_colliders.glsl"
+#ifndef SRS_ASKS
 #include "contact_loads.glsl"
+#endif
 #include "contact_nodes.glsl"
 #include "contact_work.glsl"
 
@@ -23,7 +25,7 @@ void main() {
     uint item = gl_GlobalInvocationID.x;
     if (item >= LIST(SRS_LIST_MOVERS + u_round).count)
         return;
-    uint number = b_mover[item];
+    uint number = b_mover[item], mover = 0u;
     ContactNode node = b_node[number];
     ivec2 texel = texelAt(number);
     vec3 start = imageLoad(i_start, texel).xyz, move = vec3(0.0);
@@ -37,10 +39,17 @@ void main() {
             continue;
         vec3 more = asked * (lacks / length2);
         move += more;
-        addLoad(int(ask.w & 15u), node.mass, start, more);
+        mover = ask.w & 15u;
+#ifndef SRS_ASKS
+        addLoad(int(mover), node.mass, start, more);
+#endif
     }
+#ifdef SRS_ASKS
+    imageStore(i_increments, texel, vec4(imageLoad(i_increments, texel).xyz + move, float(mover + 1u)));
+#else
     imageStore(i_positions, texel, imageLoad(i_positions, texel) + vec4(move, 0.0));
     imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(move, 0.0));
+#endif
     if (atomicExchange(b_listedIn[number], u_step) != u_step) // it may have come near a collider now
         b_near[appendTo(SRS_LIST_NEAR)] = uvec2(number, SRS_PUSHING);
 }

@@ -4,7 +4,9 @@
 layout(local_size_x = 64) in;
 #include "contact_point.glsl"
 #include "contact_depths.glsl"
+#ifndef SRS_ASKS
 #include "contact_loads.glsl"
+#endif
 #include "contact_nodes.glsl"
 #include "contact_work.glsl"
 
@@ -13,6 +15,7 @@ layout(rgba32f) uniform readonly restrict image2D i_start;
 layout(rgba32f) uniform restrict image2D i_positions;
 layout(rgba32f) uniform restrict image2D i_increments;
 layout(std430) readonly restrict buffer b_nearList { uvec2 b_near[]; };
+#include "contact_ends.glsl"
 
 void main() {
     uint item = gl_GlobalInvocationID.x;
@@ -25,12 +28,14 @@ void main() {
         return;
     vec3 x = imageLoad(i_start, texel).xyz;
     vec4 free = imageLoad(i_positions, texel); // alpha: the normal
-    vec3 end = free.xyz, moved = vec3(0.0);
+    real3 end = endOf(texel);
+    vec3 moved = vec3(0.0);
+    int mover = 0;
     real rest = depthOf(info);
     float mass = b_node[number].mass;
     for (uint mask = b_near[item].y; mask != 0u; mask &= mask - 1u) {
         int c = findLSB(mask);
-        real3 y0 = ownAtStart(c, real3(x)), y1 = ownAtEnd(c, real3(end));
+        real3 y0 = ownAtStart(c, real3(x)), y1 = ownAtEnd(c, end);
         real path = distance(y0, y1), depth = contactDepthFor(rest, thinOf(c));
         if (!(shapeLowerBound(c, y1) - depth < path)) // no part of the way is nearer
             continue;
@@ -38,13 +43,22 @@ void main() {
         if (exact == real3(0.0))
             continue;
         vec3 move = vec3(turned(b_collider[c].turnTo, exact));
-        end += move;
-        moved += move;
-        mask |= SRS_PUSHING & ~((2u << c) - 1u); // it may have come near those that follow
+#ifdef SRS_ASKS
+        end += real3(move);
+#else
+        end = real3(vec3(end) + move);
         addLoad(c, mass, x, move);
+#endif
+        moved += move;
+        mover = c;
+        mask |= SRS_PUSHING & ~((2u << c) - 1u); // it may have come near those that follow
     }
     if (moved == vec3(0.0))
         return;
-    imageStore(i_positions, texel, vec4(end, free.w));
+#ifdef SRS_ASKS
+    imageStore(i_increments, texel, vec4(imageLoad(i_increments, texel).xyz + moved, float(mover + 1)));
+#else
+    imageStore(i_positions, texel, vec4(vec3(end), free.w));
     imageStore(i_increments, texel, imageLoad(i_increments, texel) + vec4(moved, 0.0));
+#endif
 }

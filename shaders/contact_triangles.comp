@@ -10,6 +10,8 @@ layout(local_size_x = 64) in;
 
 layout(rgba32f) uniform readonly restrict image2D i_start;
 layout(rgba32f) uniform readonly restrict image2D i_positions;
+layout(rgba32f) uniform readonly restrict image2D i_increments;
+#include "contact_ends.glsl"
 layout(std430) readonly restrict buffer b_candidateList { uvec2 b_candidate[]; };
 layout(std430) writeonly restrict buffer b_asks { uvec4 b_ask[]; }; // triangle * 3 + corner: move; stamp, collider
 layout(std430) restrict buffer b_marks { uint b_mark[]; };          // by node: the last round that moved it
@@ -29,7 +31,7 @@ void main() {
     int movers[3] = int[3](0, 0, 0);
     for (int k = 0; k < 3; ++k) {
         start[k] = dvec3(imageLoad(i_start, texelAt(triangle.nodes[k])).xyz);
-        end[k] = dvec3(imageLoad(i_positions, texelAt(triangle.nodes[k])).xyz);
+        end[k] = endOf(texelAt(triangle.nodes[k]));
     }
     for (uint mask = candidate.y; mask != 0u; mask &= mask - 1u) {
         int c = findLSB(mask);

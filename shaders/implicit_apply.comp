@@ -3,6 +3,7 @@
 #include "implicit_common.glsl"
 #include "implicit_table.glsl"
 #include "implicit_springs.glsl"
+#include "implicit_symmetric.glsl"
 #ifdef SRS_VOLUME
 #include "implicit_cell_data.glsl"
 #endif
@@ -59,6 +60,9 @@ void main() {
                 g_sum += second.w * (mat3(CELL(SRS_CELL_ROOT, cell).xyz, second.xyz,
                                           CELL(SRS_CELL_ROOT + 2, cell).xyz) * cornerSign(7 - octant));
             }
+#endif
+#ifdef SRS_CONTACT
+            g_sum += times(Symmetric(VECTOR(SRS_VEC_KA, i).xyz, VECTOR(SRS_VEC_KB, i).xyz), g_here);
 #endif
             curvature = dot(g_here, g_sum);
         }

@@ -4,6 +4,7 @@
 #include "implicit_common.glsl"
 #include "implicit_table.glsl"
 #include "implicit_cell_data.glsl"
+#include "implicit_symmetric.glsl"
 #include "implicit_weights.glsl"
 uniform float u_drag;
 uniform vec3 u_gravity;
@@ -109,6 +110,13 @@ void main() {
             g_change += x.w * u_shares *
                         (dot(g_step, (u - expected.xyz) / expected.w + u_drag * u - u_gravity) +
                          0.5 * u_shares * dot(g_step, g_step) * (1.0 / expected.w + u_drag));
+#ifdef SRS_CONTACT
+        if (expected.w > 0.0)
+            g_change += u_shares * (0.5 * u_shares *
+                                        dot(g_step, times(Symmetric(VECTOR(SRS_VEC_KA, i).xyz, VECTOR(SRS_VEC_KB, i).xyz),
+                                                          g_step)) -
+                                    dot(g_step, VECTOR(SRS_VEC_F, i).xyz));
+#endif
         promise = dot(VECTOR(SRS_VEC_G, i).xyz, g_step);
     }
 #ifdef SRS_CELL_PASS

@@ -20,6 +20,15 @@
 #define SRS_VEC_DA 10 // inverse diagonal block: xx, yy, zz
 #define SRS_VEC_DB 11 // xy, yz, zx
 #define SRS_VECS 12
+// More of them where there are tools or bodies (implicit_support.comp)
+#define SRS_VEC_F 12  // what contact gives, linearized: force; w: collider, counted from 1
+#define SRS_VEC_KA 13 // its stiffness: xx, yy, zz; w: pressure
+#define SRS_VEC_KB 14 // xy, yz, zx
+#define SRS_VEC_N 15  // normal; w: 1 where it touches
+#define SRS_VEC_A 16  // where to it slides; w: 1 if it does
+#define SRS_VEC_W 17  // what contact gave after the last round; w: stiffness of the penalty
+#define SRS_CONTACT_VECS 18
+#define SRS_SUPPORTED_ACCURACY 0.1 // times ImplicitLimits::accuracy, where anything touches
 // Arrays of one vec4 a cell in b_cell
 #define SRS_CELL_LOAD 0   // three columns of a f dW/dF / 4
 #define SRS_CELL_ROOT 3   // of cof F / 4 times the root of its stiffness; w: free corners, pull

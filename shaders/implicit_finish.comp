@@ -8,7 +8,8 @@
 layout(std430) readonly buffer b_connections { uint b_connection[]; };
 layout(rgba32f) uniform writeonly restrict image2D i_newPositions;
 layout(rgba32f) uniform writeonly restrict image2D i_newEarlier;
-layout(rgba32f) uniform restrict image2D i_newIncrements;
+layout(rgba32f) uniform readonly image2D i_increments; // before the step; may be the same as the new ones
+layout(rgba32f) uniform writeonly image2D i_newIncrements;
 
 vec3 endOf(int node) {
     vec4 expected = VECTOR(SRS_VEC_V, node);
@@ -31,8 +32,12 @@ void main() {
         normal += apart / max(length(apart), 1e-6);
     }
     bool held = isHeld(i);
-    vec3 before = imageLoad(i_newIncrements, texel).xyz;
-    imageStore(i_newEarlier, texel, held ? vec4(0.0) : vec4(before, 1.0));
+    vec4 earlier = held ? vec4(0.0) : vec4(imageLoad(i_increments, texel).xyz, 1.0);
+#ifdef SRS_CONTACT
+    if (!held && VECTOR(SRS_VEC_N, i).w > 0.0)
+        earlier = vec4(VECTOR(SRS_VEC_W, i).xyz, VECTOR(SRS_VEC_A, i).w > 0.0 ? -2.0 : -1.0);
+#endif
+    imageStore(i_newEarlier, texel, earlier);
     imageStore(i_newIncrements, texel, vec4(held ? VECTOR(SRS_VEC_T, i).xyz : VECTOR(SRS_VEC_U, i).xyz, 0.0));
     imageStore(i_newPositions, texel, vec4(here, uintBitsToFloat(packNormal(normal))));
 }

@@ -99,6 +99,10 @@ void main() {
 #ifdef SRS_VOLUME
     addCells(i);
 #endif
+#ifdef SRS_CONTACT
+    g_sum -= VECTOR(SRS_VEC_F, i).xyz;
+    addTo(g_anchored, Symmetric(VECTOR(SRS_VEC_KA, i).xyz, VECTOR(SRS_VEC_KB, i).xyz));
+#endif
     if (held)
         g_anchored = g_inside = Symmetric(vec3(0.0), vec3(0.0));
     addTo(g_inside, g_anchored);

@@ -23,8 +23,11 @@ void main() {
                 share = u_shares[k];
     }
     int i = int(gl_GlobalInvocationID.x);
-    if (i < u_nodes)
-        VECTOR(SRS_VEC_U, i) += share * VECTOR(SRS_VEC_S, i);
+    if (i < u_nodes) {
+        vec4 taken = share * VECTOR(SRS_VEC_S, i);
+        VECTOR(SRS_VEC_U, i) += taken;
+        VECTOR(SRS_VEC_S, i) = taken;
+    }
     if (i == 0) {
         b_doneAt = 1 << 30;
         b_share = u_mode == 0 ? 1.0 : min(b_share, share);

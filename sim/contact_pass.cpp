@@ -46,8 +46,9 @@ gpu::Buffer bufferOf(const char* label, const std::vector<Item>& items) {
 } // namespace
 
 Status ContactPass::initialize(const SolverSetup& setup, const StateTextures& textures,
-                               const gpu::Buffer& loads) {
+                               const gpu::Buffer& loads, Purpose purpose) {
     setup_ = setup;
+    asking_ = purpose == Purpose::asks;
     colliders_ = ContactColliders(setup);
     if (empty())
         return {};
@@ -71,7 +72,7 @@ Status ContactPass::initialize(const SolverSetup& setup, const StateTextures& te
     movers_ = gpu::Buffer("contact movers", (triangles_ ? texels : 1) * sizeof(std::uint32_t), nullptr);
     createTriangles(textures);
     for (gpu::Program* program : {&held_, &move_, &push_})
-        if (*program)
+        if (*program && !asking_)
             program->buffer("b_loads", loads);
     return {};
 }
@@ -81,13 +82,15 @@ Status ContactPass::createPrograms(const TextureLayout& layout) {
     std::vector<gpu::ShaderDefine> defines = colliders_.defines();
     defines.push_back({"SRS_GROUP_X", grid ? "16" : "64"});
     defines.push_back({"SRS_GROUP_Y", grid ? "8" : "1"});
+    if (asking_)
+        defines.push_back({"SRS_ASKS", "1"});
     const gpu::ShaderLibrary library;
     const auto create = [&](gpu::Program& program, const char* stage) -> Status {
         SEROSA_ASSIGN(program, gpu::Program::create(library, {stage}, defines));
         program.set("u_width", layout.width);
         return {};
     };
-    if (grasps_) {
+    if (grasps_ && !asking_) {
         SEROSA_TRY(create(close_, "contact_close.comp"));
         SEROSA_TRY(create(held_, "contact_held.comp"));
     }
@@ -188,16 +191,44 @@ void ContactPass::prepare(const StateTextures& textures, std::int64_t step, int 
 }
 
 void ContactPass::run(StateTextures& textures, std::int64_t step) {
-    using enum ContactColliders::Precision;
     if (empty())
         return;
-    const std::vector<ToolMotion>& motions = colliders_.motions(step);
-    if (std::all_of(motions.begin(), motions.end(), [](const ToolMotion& motion) {
-            return motion.mode == SRS_TOOL_NONE && !motion.opens; // a hand that rests costs nothing
-        })) {
+    if (idle(step)) {
         recount_ = true;
         return;
     }
+    bind(step);
+    if (grasps_)
+        runGrasps(textures, step);
+    if (pushes_)
+        runPushes(textures);
+}
+
+/// A hand that rests costs nothing.
+bool ContactPass::idle(std::int64_t step) const {
+    const std::vector<ToolMotion>& motions = colliders_.motions(step);
+    return std::all_of(motions.begin(), motions.end(), [](const ToolMotion& motion) {
+        return motion.mode == SRS_TOOL_NONE && !motion.opens;
+    });
+}
+
+void ContactPass::close(const StateTextures& textures, std::int64_t step) {
+    if (empty() || !grasps_ || idle(step))
+        return;
+    bind(step);
+    recount_ = true; // nobody counts from step to step
+    closeGrasps(textures.positions(), textures, step);
+}
+
+void ContactPass::push(StateTextures& textures, std::int64_t step) {
+    if (empty() || !pushes_ || idle(step))
+        return;
+    bind(step);
+    runPushes(textures);
+}
+
+void ContactPass::bind(std::int64_t step) {
+    using enum ContactColliders::Precision;
     for (gpu::Program* program : {&close_, &held_, &triangle_, &move_, &push_})
         if (*program)
             colliders_.bind(*program, step, exact, program != &move_);
@@ -206,20 +237,16 @@ void ContactPass::run(StateTextures& textures, std::int64_t step) {
             colliders_.bind(*program, step, single, true);
     // Of whatever made the positions, a render target or an image.
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    if (grasps_)
-        runGrasps(textures, step);
-    if (pushes_)
-        runPushes(textures, int(step % 2));
 }
 
 void ContactPass::setPositions(gpu::Program& program, const StateTextures& textures, bool moves) const {
     program.image("i_start", textures.positions_[1 - textures.current_], GL_READ_ONLY);
     program.image("i_positions", textures.positions(), moves ? GL_READ_WRITE : GL_READ_ONLY);
-    if (moves)
-        program.image("i_increments", textures.increments(), GL_READ_WRITE);
+    if (moves || (asking_ && &program == &triangle_))
+        program.image("i_increments", textures.increments(), moves ? GL_READ_WRITE : GL_READ_ONLY);
 }
 
-void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
+void ContactPass::closeGrasps(const gpu::Texture2D& start, const StateTextures& textures, std::int64_t step) {
     const std::vector<ToolMotion>& motions = colliders_.motions(step);
     unsigned opens = 0, closes = 0;
     bool holds = false;
@@ -234,15 +261,20 @@ void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
         const GpuHeld none;
         heldNodes_.upload(0, sizeof none, &none);
         close_.set("u_opens", opens).set("u_closes", closes).set("u_now", now);
-        close_.image("i_start", textures.positions_[1 - textures.current_], GL_READ_ONLY);
+        close_.image("i_start", start, GL_READ_ONLY);
         close_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_WRITE);
         close_.dispatch(items);
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                         GL_COMMAND_BARRIER_BIT);
     }
     recount_ = !holds; // the next grasp begins with a count
-    if (!holds)
-        return;
+}
+
+void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
+    closeGrasps(textures.positions_[1 - textures.current_], textures, step);
+    if (recount_)
+        return; // nothing is held
+    const int now = int(step % 3);
     held_.set("u_now", now);
     setPositions(held_, textures, true);
     held_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_WRITE);
@@ -251,7 +283,8 @@ void ContactPass::runGrasps(const StateTextures& textures, std::int64_t step) {
                     GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void ContactPass::runPushes(const StateTextures& textures, int set) {
+void ContactPass::runPushes(const StateTextures& textures) {
+    const int set = set_ = 1 - set_;
     const auto list = [set](int kind) {
         return std::size_t(set * SRS_CONTACT_LISTS + kind) * sizeof(GpuList);
     };

@@ -30,7 +30,11 @@ class ContactPass {
 public:
     /// Makes programs and buffers, as far as the setup's tools and bodies need them; `loads` is what they add
     /// to, and outlives this. Errors: of the shaders.
-    Status initialize(const SolverSetup& setup, const StateTextures& textures, const gpu::Buffer& loads);
+    /// \param purpose asks: push() leaves positions as they are, see shaders/contact_ends.glsl, and adds no
+    /// loads
+    enum class Purpose { moves, asks };
+    Status initialize(const SolverSetup& setup, const StateTextures& textures, const gpu::Buffer& loads,
+                      Purpose purpose = Purpose::moves);
     /// Nothing ever to do.
     bool empty() const { return colliders_.count() == 0; }
 
@@ -48,6 +52,17 @@ public:
     /// what it reads of images.
     void run(StateTextures& textures, std::int64_t step);
 
+    // The parts of run() that implicit steps take by themselves (sim/implicit_contact_pass.h).
+
+    /// Opens and closes grasps, and counts the mass that each holds. The step's start is
+    /// `textures.positions()`.
+    void close(const StateTextures& textures, std::int64_t step);
+    /// Pushes alone, as run().
+    void push(StateTextures& textures, std::int64_t step);
+    const ContactColliders& colliders() const { return colliders_; }
+    /// What grasps hold (shaders/contact_grasp.glsl), for programs with u_now = step % 3.
+    const gpu::Buffer& heldNodes() const { return heldNodes_; }
+
     /// Memory of its buffers.
     std::size_t bytes() const;
 
@@ -56,7 +71,10 @@ private:
     void createTriangles(const StateTextures& textures);
     void setPositions(gpu::Program& program, const StateTextures& textures, bool moves) const;
     void runGrasps(const StateTextures& textures, std::int64_t step);
-    void runPushes(const StateTextures& textures, int set);
+    bool idle(std::int64_t step) const;
+    void bind(std::int64_t step);
+    void closeGrasps(const gpu::Texture2D& start, const StateTextures& textures, std::int64_t step);
+    void runPushes(const StateTextures& textures);
 
     SolverSetup setup_;
     ContactColliders colliders_;
@@ -64,7 +82,8 @@ private:
     std::vector<double> mass_;                                 // shares, one a node
     std::vector<std::uint32_t> connections_;
     std::size_t triangleCount_ = 0;
-    bool stale_ = false, recount_ = true;
+    bool stale_ = false, recount_ = true, asking_ = false;
+    int set_ = 0; // of lists, in turns
     std::uint32_t stamp_ = 0;
 
     gpu::Program close_, held_, listNear_, cull_, triangle_, move_, push_;

@@ -26,6 +26,28 @@ std::vector<double> massShares(const ImplicitSystem<Real>& system) {
 
 } // namespace
 
+std::vector<double> contactStiffness(const SolverSetup& setup, const TissueField& field) {
+    const Lattice& lattice = *setup.lattice;
+    const double dt = setup.timeStep, scale = dt * dt * setup.tissue.stiffnessOverMass(lattice.spacing);
+    std::vector<double> stiffness;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
+        double sum = 2 * field.massShare(node);
+        for (int d = 0; d < SRS_NEIGHBOURS; ++d)
+            if (lattice.connections[node] >> d & 1u)
+                sum += scale / 3 * (field.springWeight(node, d) + field.dampingWeight(node, d) / dt);
+        stiffness.push_back(sum);
+    }
+    for (std::size_t i = 0; i < lattice.cells.size(); ++i)
+        for (int corner = 0; corner < 8; ++corner) {
+            const std::int64_t node = lattice.nodeAt(lattice.cells[i].grid + cornerOffset(corner));
+            stiffness[std::size_t(node)] +=
+                scale * lattice.cells[i].fill / 255.0 * field.materialOf(i).bulk / 16; // |g|^2 / 3
+        }
+    for (double& r : stiffness)
+        r *= kPenalty;
+    return stiffness;
+}
+
 /// Nodes that went by these increments, and by w where it is given.
 template <class Real>
 class ImplicitContact<Real>::Nodes final : public ContactNodes {
@@ -62,8 +84,7 @@ ImplicitContact<Real>::ImplicitContact(const SolverSetup& setup, const ImplicitS
     : setup_(setup), stage_(setup, massShares(system)) {
     if (empty())
         return;
-    for (std::size_t node = 0; node < system.nodes(); ++node)
-        stiffness_.push_back(kPenalty * double(system.restStiffness(node)));
+    stiffness_ = contactStiffness(setup, TissueField(*setup.lattice, setup.tissue));
     for (const ToolMotion& collider : colliderMotions(setup, 0))
         frictions_.push_back(collider.friction);
 }

@@ -30,6 +30,10 @@
 
 namespace serosa::sim {
 
+/// r of the penalty, one a node, in units of mass shares: some times the stiffness of the node against its
+/// neighbours at rest, a third of the trace of its block in the matrix.
+std::vector<double> contactStiffness(const SolverSetup& setup, const TissueField& field);
+
 template <class Real>
 class ImplicitContact {
 public:

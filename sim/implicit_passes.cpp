@@ -4,11 +4,13 @@
 #include "base/check.h"
 #include "shaders/implicit_constants.h"
 #include "shaders/shared_constants.h"
+#include "sim/implicit_contact.h"
 #include "sim/solver_program.h"
 #include "sim/tissue_field.h"
 #include "sim/tissue_uniforms.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace serosa::sim {
@@ -52,7 +54,8 @@ void setMaterials(gpu::Program& program, const SolverSetup& setup, bool volume, 
 } // namespace
 
 Status ImplicitPasses::initialize(const SolverSetup& setup, StateTextures& textures,
-                                  const ImplicitLimits& limits) {
+                                  const ImplicitLimits& limits, ContactPass& pushes,
+                                  const gpu::Buffer& loads) {
     setup_ = setup;
     limits_ = limits;
     levels_ = implicitLevels(*setup.lattice);
@@ -66,8 +69,10 @@ Status ImplicitPasses::initialize(const SolverSetup& setup, StateTextures& textu
     }
     textures.keepEarlier();
     createTables(textures.layout());
-    createConstants();
-    return createPrograms();
+    createConstants(!pushes.empty());
+    SEROSA_TRY(createPrograms(pushes));
+    return contact_.initialize(setup, textures, pushes, loads,
+                               [this](gpu::Program& program) { share(program); });
 }
 
 void ImplicitPasses::createTables(const TextureLayout& layout) {
@@ -111,7 +116,7 @@ void ImplicitPasses::createTables(const TextureLayout& layout) {
     texels_ = texels;
 }
 
-void ImplicitPasses::createConstants() {
+void ImplicitPasses::createConstants(bool contact) {
     const Lattice& lattice = *setup_.lattice;
     const TissueField field(lattice, setup_.tissue);
     const std::size_t nodes = lattice.nodeCount(), cells = lattice.cells.size();
@@ -134,7 +139,13 @@ void ImplicitPasses::createConstants() {
     masses_ = gpu::Buffer("implicit masses", std::span<const float>(masses));
     weights_ = gpu::Buffer("implicit weights", std::span<const float>(weights));
     cellShares_ = gpu::Buffer("implicit cell shares", std::span<const glm::vec2>(shares));
-    vectors_ = emptyBuffer("implicit vectors", SRS_VECS * nodes * 16);
+    vectors_ = emptyBuffer("implicit vectors", (contact ? SRS_CONTACT_VECS : SRS_VECS) * nodes * 16);
+    if (contact) {
+        std::vector<glm::vec4> stiffness;
+        for (const double r : contactStiffness(setup_, field))
+            stiffness.emplace_back(0, 0, 0, r);
+        vectors_.upload(SRS_VEC_W * nodes * 16, nodes * 16, stiffness.data());
+    }
     sums_ = emptyBuffer("implicit sums", SRS_SUMS * std::size_t(groups_) * 16);
     const Progress progress;
     progress_ = gpu::Buffer("implicit progress", sizeof progress, &progress);
@@ -143,14 +154,24 @@ void ImplicitPasses::createConstants() {
     springs_ = emptyBuffer("implicit springs", SRS_NEIGHBOURS * nodes * 16);
     const std::size_t size = 3 * levels_.back().nodes.size();
     coarsest_ = emptyBuffer("implicit coarsest level", (size * size + size) * 4);
-    impulses_ = emptyBuffer("implicit impulses",
-                            std::max<std::size_t>(1, setup_.tools.size()) * std::size_t(groups_) * 16);
 }
 
-Status ImplicitPasses::createPrograms() {
+/// What all passes read.
+void ImplicitPasses::share(gpu::Program& program) const {
+    program.buffer("b_vectors", vectors_).buffer("b_sums", sums_).buffer("b_progress", progress_);
+    program.set("u_nodes", int(setup_.lattice->nodeCount())).set("u_groups", groups_);
+    program.buffer("b_tables", tables_).set("u_levels", int(levels_.size()));
+    program.set("u_neighbours", neighbours_).set("u_texels", texels_);
+}
+
+Status ImplicitPasses::createPrograms(const ContactPass& pushes) {
     const gpu::ShaderLibrary library;
     std::vector<gpu::ShaderDefine> defines = tissueDefines(setup_.tissue);
-    defines.push_back({"SRS_TOOLS", std::to_string(setup_.tools.size())});
+    if (!pushes.empty()) {
+        defines.push_back({"SRS_CONTACT", "1"});
+        const std::vector<gpu::ShaderDefine> colliders = pushes.colliders().defines();
+        defines.insert(defines.end(), colliders.begin(), colliders.end());
+    }
     const struct {
         gpu::Program* program;
         const char* file;
@@ -169,22 +190,19 @@ Status ImplicitPasses::createPrograms() {
                {&direction_, "direction"},
                {&changes_, "changes"},
                {&take_, "take"},
-               {&finish_, "finish"},
-               {&loads_, "loads"}};
+               {&finish_, "finish"}};
     const double dt = setup_.timeStep;
     for (const auto& [program, file] : all) {
-        if (program == &loads_ && setup_.tools.empty())
-            continue;
         SEROSA_ASSIGN(*program,
                       gpu::Program::create(library, {std::string("implicit_") + file + ".comp"}, defines));
-        program->buffer("b_vectors", vectors_).buffer("b_sums", sums_).buffer("b_progress", progress_);
-        program->set("u_nodes", int(setup_.lattice->nodeCount())).set("u_groups", groups_);
         const auto mentions = [&](std::initializer_list<gpu::Program*> users) {
             return std::find(users.begin(), users.end(), program) != users.end();
         };
-        if (!mentions({&update_, &direction_, &take_})) {
-            program->buffer("b_tables", tables_).set("u_levels", int(levels_.size()));
-            program->set("u_neighbours", neighbours_).set("u_texels", texels_);
+        if (mentions({&update_, &direction_, &take_})) {
+            program->buffer("b_vectors", vectors_).buffer("b_sums", sums_).buffer("b_progress", progress_);
+            program->set("u_nodes", int(setup_.lattice->nodeCount())).set("u_groups", groups_);
+        } else {
+            share(*program);
         }
         const bool volume = setup_.tissue.volumetric();
         if (mentions({&cells_, &linearize_, &pull_, &changes_}) || (volume && mentions({&apply_}))) {
@@ -209,13 +227,12 @@ Status ImplicitPasses::createPrograms() {
             program->buffer("b_coarsest", coarsest_);
     }
     begin_.buffer("b_masses", masses_);
-    if (loads_)
-        loads_.buffer("b_impulses", impulses_);
     setMaterials(cells_, setup_, true, true);
     setMaterials(changes_, setup_, setup_.tissue.volumetric(), false);
     setMaterials(linearize_, setup_, false, false);
     tailProgram_.set("u_level", tail_);
-    direction_.set("u_accuracy", float(limits_.accuracy * limits_.accuracy))
+    const double accuracy = (pushes.empty() ? 1 : SRS_SUPPORTED_ACCURACY) * limits_.accuracy;
+    direction_.set("u_accuracy", float(accuracy * accuracy))
         .set("u_floor", float(limits_.floor * limits_.floor * totalMass_));
     return {};
 }
@@ -271,7 +288,7 @@ void ImplicitPasses::newtonRound(int round, bool pulled) {
     };
     if (pulled)
         apply(SRS_VEC_S, -1);
-    direction_.set("u_round", round);
+    direction_.set("u_round", contact_.empty() ? round : 0);
     precondition(0, 0);
     for (int i = 0; i < limits_.iterations; ++i) {
         apply(SRS_VEC_P, i);
@@ -284,55 +301,50 @@ void ImplicitPasses::newtonRound(int round, bool pulled) {
     runSums(take_);
 }
 
-void ImplicitPasses::step(StateTextures& textures, const std::vector<ToolMotion>& tools) {
+void ImplicitPasses::step(StateTextures& textures, std::int64_t step) {
     const std::size_t nodes = setup_.lattice->nodeCount();
+    const bool contact = !contact_.empty();
+    const auto start = std::size_t(textures.current_);
     bool holding = false;
-    std::vector<glm::vec4> moves;
-    for (const ToolMotion& tool : tools) {
-        moves.emplace_back(glm::vec3(tool.to - tool.from), 0);
-        holding = holding || tool.mode == SRS_TOOL_GRASP;
+    if (contact) {
+        for (const ToolMotion& motion : contact_.asks().colliders().motions(step))
+            holding = holding || (motion.mode == SRS_TOOL_GRASP && !std::isfinite(motion.grip));
+        contact_.close(textures, step);
+        contact_.bind(begin_, step);
     }
     begin_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_ONLY);
     begin_.image("i_positions", textures.positions(), GL_READ_ONLY);
     begin_.image("i_increments", textures.increments(), GL_READ_ONLY);
     begin_.image("i_earlier", textures.earlier_, GL_READ_ONLY);
-    if (!moves.empty())
-        begin_.set("u_moves", std::span<const glm::vec4>(moves));
     run(begin_, nodes);
+    if (contact)
+        textures.current_ = 1 - textures.current_;
 
     const glm::vec4 shares(1, 0.75, 0.5, 0.25);
     changes_.set("u_shares", shares);
     runSums(changes_);
     take_.set("u_shares", shares).set("u_mode", 0);
     runSums(take_);
-    for (int round = 0; round < limits_.rounds; ++round)
+    const int rounds = contact ? limits_.supportedRounds : limits_.rounds;
+    for (int round = 0; round < rounds; ++round) {
+        if (contact)
+            contact_.support(textures, step, round);
         newtonRound(round, holding && round == 0);
-    if (holding) {
+    }
+    if (contact) {
+        contact_.take(textures, rounds);
         linearize();
-        loads_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_ONLY);
-        runSums(loads_);
+        contact_.countLoads(textures, step);
     }
     const auto current = std::size_t(textures.current_);
     finish_.image("i_newPositions", textures.positions_[current], GL_WRITE_ONLY);
-    finish_.image("i_newIncrements", textures.increments_[current], GL_READ_WRITE);
+    finish_.image("i_increments", textures.increments_[start], GL_READ_ONLY);
+    finish_.image("i_newIncrements", textures.increments_[current], GL_WRITE_ONLY);
     finish_.image("i_newEarlier", textures.earlier_, GL_WRITE_ONLY);
     run(finish_, nodes);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-}
-
-std::vector<glm::dvec3> ImplicitPasses::takeImpulses() {
-    const std::size_t tools = setup_.tools.size();
-    std::vector<glm::dvec3> impulses(tools, glm::dvec3(0));
-    if (tools == 0)
-        return impulses;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    std::vector<glm::vec4> sums(tools * std::size_t(groups_));
-    impulses_.download(0, sums.size() * sizeof sums[0], sums.data());
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        impulses[i % tools] += glm::dvec3(sums[i]);
-    sums.assign(sums.size(), glm::vec4(0));
-    impulses_.upload(0, sums.size() * sizeof sums[0], sums.data());
-    return impulses;
+    if (contact)
+        contact_.finish(textures, step);
 }
 
 ImplicitEffort ImplicitPasses::effort() const {
@@ -346,9 +358,9 @@ std::size_t ImplicitPasses::bytes() const {
     std::size_t sum = 0;
     for (const gpu::Buffer* buffer :
          {&vectors_, &sums_, &progress_, &tables_, &cellArrays_, &cellShares_, &connections_, &masses_,
-          &weights_, &springs_, &levelArrays_, &quadratures_, &coarsest_, &impulses_})
+          &weights_, &springs_, &levelArrays_, &quadratures_, &coarsest_})
         sum += buffer->bytes();
-    return sum;
+    return sum + contact_.bytes();
 }
 
 } // namespace serosa::sim

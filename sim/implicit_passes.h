@@ -12,8 +12,9 @@
 //     direction                of conjugate gradients, begins
 //     an iteration, each       (pull,) apply, update, restrict, tail, prolong, direction
 //     changes, take            the share of the step that lets Phi fall
-//   (cells, linearize, loads)  what tools had to give
 //   finish                     arrays to state textures
+//
+// What contact and grasps add between them is in sim/implicit_contact_pass.h.
 //
 // How many rounds and iterations there are is fixed; once an iteration finds the residual small enough, the
 // passes of those that follow return at once.
@@ -22,11 +23,11 @@
 #include "gpu/program.h"
 #include "shaders/implicit_constants.h"
 #include "shaders/shared_constants.h"
+#include "sim/implicit_contact_pass.h"
 #include "sim/implicit_levels.h"
 #include "sim/implicit_stepper.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
-#include "sim/tool_motion.h"
 
 #include <string>
 #include <vector>
@@ -36,25 +37,25 @@ namespace serosa::sim {
 /// Of one StateTextures, which every call gets and which keeps earlier increments. Needs a current context.
 class ImplicitPasses {
 public:
-    /// Errors: of the shaders.
-    Status initialize(const SolverSetup& setup, StateTextures& textures, const ImplicitLimits& limits);
-    /// One step, in place. What earlier passes wrote must be visible to image loads.
-    void step(StateTextures& textures, const std::vector<ToolMotion>& tools);
-    /// Where a grasp pass writes.
-    static void storeGrasp(const StateTextures& textures, gpu::Program& grasp, int to) {
-        grasp.image("i_newNodeInfo", textures.nodeInfo_[to], GL_WRITE_ONLY);
-    }
-    /// Takes what the tools gave to the nodes that they hold: mass shares times lattice units a step.
-    std::vector<glm::dvec3> takeImpulses();
+    /// \param pushes contact of the same setup, which outlives this, as the buffer of loads does. Errors: of
+    /// the shaders.
+    Status initialize(const SolverSetup& setup, StateTextures& textures, const ImplicitLimits& limits,
+                      ContactPass& pushes, const gpu::Buffer& loads);
+    /// One step, whose colliders are prepared: in place, or into the other half of the textures where there
+    /// are any. What earlier passes wrote must be visible to image loads.
+    void step(StateTextures& textures, std::int64_t step);
+    /// Where contact would move nodes is asked of this one: as ContactPass.
+    ContactPass& asks() { return contact_.asks(); }
     /// Of the last step; reads back.
     ImplicitEffort effort() const;
     /// Buffer memory.
     std::size_t bytes() const;
 
 private:
-    Status createPrograms();
+    Status createPrograms(const ContactPass& pushes);
+    void share(gpu::Program& program) const;
     void createTables(const TextureLayout& layout);
-    void createConstants();
+    void createConstants(bool contact);
     void precondition(int prepared, int wanted);
     void newtonRound(int round, bool pulled);
     void linearize();
@@ -69,9 +70,10 @@ private:
     int neighbours_ = 0, texels_ = 0; // places in tables_
     int tail_ = 1; // the first level that one work group takes care of, with all that follow
     gpu::Program begin_, cells_, linearize_, coarsenCells_, coarsenNodes_, invert_, pull_, apply_, update_,
-        restrict_, tailProgram_, prolong_, direction_, changes_, take_, finish_, loads_;
+        restrict_, tailProgram_, prolong_, direction_, changes_, take_, finish_;
+    ImplicitContactPass contact_;
     gpu::Buffer vectors_, sums_, progress_, tables_, cellArrays_, cellShares_, connections_, masses_,
-        weights_, springs_, levelArrays_, quadratures_, coarsest_, impulses_;
+        weights_, springs_, levelArrays_, quadratures_, coarsest_;
 };
 
 } // namespace serosa::sim

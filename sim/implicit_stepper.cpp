@@ -1,6 +1,7 @@
 // See sim/implicit_stepper.h.
 #include "sim/implicit_stepper.h"
 
+#include "shaders/implicit_constants.h"
 #include "sim/implicit_system-inl.h"
 
 #include <cmath>
@@ -11,8 +12,7 @@ namespace {
 
 // Of a Newton step, largest first: the first that lets Phi fall is taken.
 constexpr std::array<double, 4> kShares = {1, 0.5, 0.2, 0.04};
-constexpr double kSupported = 0.1; // of the accuracy, where anything touches
-constexpr double kFall = 1e-4;     // of what the gradient promises (Armijo)
+constexpr double kFall = 1e-4; // of what the gradient promises (Armijo)
 
 } // namespace
 
@@ -85,7 +85,8 @@ double ImplicitStepper<Real>::newtonStep(Vectors& increments, int round) {
     if (round == 0 || !system_.supports().empty())
         firstResidual_ = size;
     // What supports give is settled round by round, each from the last one's.
-    const double accuracy = system_.supports().empty() ? limits_.accuracy : kSupported * limits_.accuracy;
+    const double accuracy =
+        system_.supports().empty() ? limits_.accuracy : SRS_SUPPORTED_ACCURACY * limits_.accuracy;
     const double goal =
         std::max(accuracy * accuracy * firstResidual_, limits_.floor * limits_.floor * system_.totalMass());
     direction_ = preconditioned_;

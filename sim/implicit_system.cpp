@@ -124,20 +124,6 @@ void ImplicitSystem<Real>::begin(Step step) {
 }
 
 template <class Real>
-Real ImplicitSystem<Real>::restStiffness(std::size_t node) const {
-    Real sum = 2 * mass_[node];
-    for (std::size_t d = 0; d < SRS_NEIGHBOURS; ++d) {
-        const Spring& spring = springs_[node * SRS_NEIGHBOURS + d];
-        if (spring.other >= 0)
-            sum += Real(1.0 / 3) * (Real(scale_ * field_.springWeight(node, int(d))) + spring.damper);
-    }
-    for (const std::int32_t cell : shapes_[0].cellsAround[node])
-        if (cell >= 0)
-            sum += Real(1.0 / 16) * cells_[std::size_t(cell)].bulk; // |g|^2 / 3
-    return sum;
-}
-
-template <class Real>
 void ImplicitSystem<Real>::place(const Vectors& increments) {
     forEachRun(nodes(), [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)

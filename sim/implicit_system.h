@@ -87,8 +87,6 @@ public:
     /// One a node, or none at all. begin() takes them away.
     void support(std::vector<Support> supports) { supports_ = std::move(supports); }
     const std::vector<Support>& supports() const { return supports_; }
-    /// Of a node alone against the rest of the organ, as it rests: a third of its block's trace.
-    Real restStiffness(std::size_t node) const;
 
     /// Phi's gradient with respect to u', a force; at held nodes what holds them has to give.
     void gradient(const Vectors& increments, Vectors& result);

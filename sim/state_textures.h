@@ -43,14 +43,16 @@ private:
     friend class TextureSolver;
     friend class FragmentSolver;
     friend class ComputeSolver;
+    friend class ImplicitContactPass;
     friend class ImplicitPasses;
+    friend class ImplicitTextureSolver;
     StateTextures() = default;
     std::size_t linearTexel(std::size_t node) const;
 
     TextureLayout layout_;
     std::vector<std::array<std::uint32_t, 4>> info_; // CPU copy of node info without held flags, one a texel
     gpu::Texture2D positions_[2], increments_[2], nodeInfo_[2], rowOffsets_[2];
-    gpu::Texture2D earlier_; // RGBA32F: xyz increments before the last, w 1 where there is one; or empty
+    gpu::Texture2D earlier_; // RGBA32F: LatticeState::earlier; or empty
     int current_ = 0, currentInfo_ = 0;
 };
 

@@ -38,6 +38,10 @@ Status TextureSolver::initializeSteps() {
         stepProgram_.image("i_rowOffsetsA", textures_.rowOffsets_[0], GL_READ_ONLY);
         stepProgram_.image("i_rowOffsetsB", textures_.rowOffsets_[1], GL_READ_ONLY);
     }
+    return initializeContact();
+}
+
+Status TextureSolver::initializeContact() {
     loads_ = ToolLoads(setup_);
     return contact_.initialize(setup_, textures_, loads_.sums());
 }

@@ -47,8 +47,8 @@ protected:
     void setStepInputs(gpu::Program& program, bool useTexelFetch);
     /// Takes `count` steps: calls takeStep, and lets contact follow.
     void takeSteps(int count);
-    /// One step was taken in place, without takeSteps().
-    void tookStepInPlace() { ++step_; }
+    /// The contact passes alone, for steps of another kind. Errors: of their shaders.
+    Status initializeContact();
     /// The half of the state that the step writes.
     int nextHalf() const { return 1 - textures_.current_; }
 
@@ -56,15 +56,15 @@ protected:
     StateTextures textures_;
     StepProgram stepProgram_;
     CellPass cellPass_; // initialized where the tissue needs it
+    ContactPass contact_;
+    ToolLoads loads_;
+    std::int64_t step_ = 0;
 
 private:
     /// The force pass of one step, into nextHalf(). \param last the last one of its advance()
     virtual void takeStep(bool last) = 0;
 
-    ContactPass contact_;
-    ToolLoads loads_;
     mutable CutPass cuts_; // programs made when first needed
-    std::int64_t step_ = 0;
 };
 
 } // namespace serosa::sim
