@@ -50,29 +50,28 @@ double totalMass(const SolverSetup& setup) {
 
 TEST_F(GlImplicitContact, slidesAndRestsAsOnTheProcessor) {
     const double mu = 0.3;
-    for (const double share : {0.9, 1.5})
-        for (const int layout : {SRS_LAYOUT_GRID, SRS_LAYOUT_ROWS}) {
-            const Lattice lattice = block(8, 3, 6, 0.005);
-            SolverSetup setup = test::implicitSetup(lattice, 20000);
-            setup.tissue.dampingTime = 0.002;
-            setup.bodies = {floorOf(mu)};
-            const double angle = std::atan(share * mu);
-            setup.gravity = 9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0);
-            const auto gpu = onGpu(setup, layout), cpu = sim::makeImplicitCpuSolver(setup);
-            for (sim::Solver* solver : {gpu.get(), cpu.get()}) {
-                solver->setState(sim::startState(setup));
-                solver->advance(20);
-                solver->takeLoads();
-                solver->advance(20);
-            }
-            const sim::ToolLoad given = gpu->takeLoads()[0], expected = cpu->takeLoads()[0];
-            const double weight = 9.81 * totalMass(setup) / 3; // 20 frames'
-            EXPECT_LT(glm::distance(given.impulse, expected.impulse), 5e-3 * weight) << share;
-            EXPECT_NEAR(given.impulse.y, std::cos(angle) * weight, 5e-3 * weight) << share;
-            const double moved = test::massCentre(lattice, cpu->state()).x,
-                         here = test::massCentre(lattice, gpu->state()).x;
-            EXPECT_NEAR(here, moved, 0.02 * std::max(0.2, std::abs(moved))) << share;
+    for (const double share : {0.9, 1.5}) {
+        const Lattice lattice = block(5, 3, 4, 0.005);
+        SolverSetup setup = test::implicitSetup(lattice, 20000);
+        setup.tissue.dampingTime = 0.002;
+        setup.bodies = {floorOf(mu)};
+        const double angle = std::atan(share * mu);
+        setup.gravity = 9.81 * glm::dvec3(std::sin(angle), -std::cos(angle), 0);
+        const auto gpu = onGpu(setup), cpu = sim::makeImplicitCpuSolver(setup);
+        for (sim::Solver* solver : {gpu.get(), cpu.get()}) {
+            solver->setState(sim::startState(setup));
+            solver->advance(15);
+            solver->takeLoads();
+            solver->advance(10);
         }
+        const sim::ToolLoad given = gpu->takeLoads()[0], expected = cpu->takeLoads()[0];
+        const double weight = 9.81 * totalMass(setup) / 6; // 10 frames'
+        EXPECT_LT(glm::distance(given.impulse, expected.impulse), 5e-3 * weight) << share;
+        EXPECT_NEAR(given.impulse.y, std::cos(angle) * weight, 5e-3 * weight) << share;
+        const double moved = test::massCentre(lattice, cpu->state()).x,
+                     here = test::massCentre(lattice, gpu->state()).x;
+        EXPECT_NEAR(here, moved, 0.02 * std::max(0.2, std::abs(moved))) << share;
+    }
 }
 
 TEST_F(GlImplicitContact, indentsAsTheProcessor) {
@@ -83,17 +82,17 @@ TEST_F(GlImplicitContact, indentsAsTheProcessor) {
     const double radius = 0.015;
     const glm::dvec3 high = lattice.toWorld({0, 3, 0}) + glm::dvec3(0, radius, 0),
                      low = high - glm::dvec3(0, 0.004, 0);
-    setup.tools = {{"ball", sim::ToolMode::push, radius, {{0, high}, {0.3, low}, {9, low}}}};
+    setup.tools = {{"ball", sim::ToolMode::push, radius, {{0, high}, {0.25, low}, {9, low}}}};
     setup.tools[0].friction = 0.2;
     const auto gpu = onGpu(setup), cpu = sim::makeImplicitCpuSolver(setup);
     for (sim::Solver* solver : {gpu.get(), cpu.get()}) {
         solver->setState(sim::startState(setup));
-        solver->advance(30);
+        solver->advance(24);
         solver->takeLoads();
-        solver->advance(6);
+        solver->advance(4);
     }
     const sim::ToolLoad given = gpu->takeLoads()[0], expected = cpu->takeLoads()[0];
-    EXPECT_LT(expected.impulse.y, -5e-3);
+    EXPECT_LT(expected.impulse.y, -4e-3);
     EXPECT_NEAR(given.impulse.y, expected.impulse.y, 3e-3 * std::abs(expected.impulse.y));
     EXPECT_LT(test::largestDistance(gpu->state(), cpu->state()), 0.01);
 }
@@ -104,8 +103,8 @@ TEST_F(GlImplicitContact, graspsHoldTurnAndSlip) {
     setup.gravity = {0, -9.81, 0};
     const double weight = 9.81 * totalMass(setup);
     const glm::dvec3 top = lattice.toWorld({0, 3, 0});
-    for (const double share : {1.2, 0.8, 1e9}) {
-        setup.tools = {{"clamp", sim::ToolMode::grasp, 0.004, {{0, top}, {1, top}, {9, top}}}};
+    for (const double share : {3.0, 0.8, 1e9}) {
+        setup.tools = {{"clamp", sim::ToolMode::grasp, 0.004, {{0, top}, {0.3, top}, {9, top}}}};
         setup.tools[0].keys[1].turn = setup.tools[0].keys[2].turn = glm::angleAxis(0.5, glm::dvec3(0, 1, 0));
         if (share < 1e6)
             setup.tools[0].gripForce = share * weight;
@@ -115,19 +114,21 @@ TEST_F(GlImplicitContact, graspsHoldTurnAndSlip) {
         for (int k = 0; k < 2; ++k) {
             sim::Solver& solver = k == 0 ? *gpu : *cpu;
             solver.setState(sim::startState(setup));
-            solver.advance(100);
+            solver.advance(36);
             solver.takeLoads();
-            solver.advance(30);
+            solver.advance(6);
             loads[k] = solver.takeLoads()[0];
             for (const std::uint32_t by : solver.state().heldBy)
                 held[k] += by != 0;
         }
         EXPECT_EQ(held[0], held[1]) << share;
-        EXPECT_EQ(held[0] > 0, share > 1);
-        EXPECT_NEAR(loads[0].impulse.y, share > 1 ? 0.5 * weight : 0, 5e-3 * weight) << share;
+        EXPECT_EQ(held[0] > 0, share > 1) << share;
+        EXPECT_NEAR(loads[0].impulse.y, share > 1 ? 0.1 * weight : 0, 5e-3 * weight) << share;
         EXPECT_LT(glm::distance(loads[0].angular, loads[1].angular), 5e-3 * weight * 0.01) << share;
         if (share > 1) {
-            EXPECT_LT(test::largestDistance(gpu->state(), cpu->state()), 0.02) << share;
+            if (share > 1) {
+                EXPECT_LT(test::largestDistance(gpu->state(), cpu->state()), 0.02) << share;
+            }
         }
     }
 }
@@ -143,11 +144,11 @@ TEST_F(GlImplicitContact, layoutsAndRestoresKeepEveryByte) {
     const auto grid = onGpu(setup, SRS_LAYOUT_GRID), rows = onGpu(setup, SRS_LAYOUT_ROWS);
     for (sim::Solver* solver : {grid.get(), rows.get()}) {
         solver->setState(sim::startState(setup));
-        solver->advance(20);
+        solver->advance(12);
     }
     EXPECT_EQ(grid->state().hash(), rows->state().hash());
     rows->setState(grid->state());
     for (sim::Solver* solver : {grid.get(), rows.get()})
-        solver->advance(10);
+        solver->advance(4);
     EXPECT_EQ(grid->state().hash(), rows->state().hash());
 }
