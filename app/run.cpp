@@ -78,6 +78,7 @@ public:
             if (organ->solver)
                 record_.solver = solver;
         }
+        recordCoupling();
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
@@ -230,12 +231,47 @@ private:
         }
         record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
         record_.samples.push_back(sum);
+        sampleCoupling(frame);
+    }
+
+    /// Forces in threads, and between organs since the sample before.
+    void sampleCoupling(int frame) {
+        const double time = frame * frameTime_, passed = time - coupledFrom_;
+        const std::vector<sim::ThreadState> threads = player_.threads();
+        for (std::size_t i = 0; i < threads.size(); ++i) {
+            record_.threads[i].last = threads[i];
+            record_.threads[i].samples.push_back({time, threads[i].force});
+        }
+        const sim::PairLoads loads = player_.takePairLoads();
+        for (PairRecord& pair : record_.contacts) {
+            const int a = parts_.coupled.placeOf(pair.organs[0]), b = parts_.coupled.placeOf(pair.organs[1]);
+            PairRecord::Sample sample{time, {}, 0};
+            if (!loads.empty() && passed > 0) {
+                sample.force = loads[std::size_t(a)][std::size_t(b)].impulse / passed;
+                sample.pressed = loads[std::size_t(a)][std::size_t(b)].pressed / passed;
+            }
+            pair.samples.push_back(sample);
+        }
+        coupledFrom_ = time;
+    }
+
+    void recordCoupling() {
+        record_.threads.resize(parts_.scene.threads.size());
+        const std::vector<std::size_t>& organs = parts_.coupled.organs;
+        for (std::size_t a = 0; a < organs.size(); ++a)
+            for (std::size_t b = a; b < organs.size(); ++b) {
+                const sim::OrganCoupling first = sim::couplingOf(parts_.scene, organs[a]),
+                                         second = sim::couplingOf(parts_.scene, organs[b]);
+                if (a == b ? first.touchesItself : first.touches && second.touches)
+                    record_.contacts.push_back({{organs[a], organs[b]}, {}});
+            }
     }
 
     void drawScene(int frame) {
-        const render::View view{
-            camera_, parts_.scene.light, parts_.scene.look,
-            render::drawnShapes(parts_.scene, frame * frameTime_, parts_.lowest(), parts_.highest())};
+        const double time = frame * frameTime_;
+        const render::View view{camera_, parts_.scene.light, parts_.scene.look,
+                                render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
+                                drawnThreads(parts_, player_.threads(), time)};
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
     }
@@ -331,6 +367,7 @@ private:
     StateFiles files_;
     int frames_, firstFrame_ = 0; // the last one, and the one that it begins after
     double frameTime_;            // s
+    double coupledFrom_ = 0;      // s: of the last sample of forces between organs
     render::CameraView camera_;
     RunRecord record_;
     std::set<int> surfaceFrames_, sheetFrames_;
@@ -372,6 +409,8 @@ std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out)
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         describeOrgan(parts.scene.organs[i], *parts.organs[i], parts.levels[i], out, notes);
     for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
+        notes.push_back(std::move(note));
+    for (std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
         notes.push_back(std::move(note));
     if (parts.timesLeftOut > 0)
         notes.push_back(std::to_string(parts.timesLeftOut) +
