@@ -4,6 +4,7 @@
 #include "app/run.h"
 
 #include "app/contact_notes.h"
+#include "app/coupling_record.h"
 #include "app/material_lines.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -78,7 +79,7 @@ public:
             if (organ->solver)
                 record_.solver = solver;
         }
-        recordCoupling();
+        beginCoupling(parts, record_);
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
@@ -231,40 +232,7 @@ private:
         }
         record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
         record_.samples.push_back(sum);
-        sampleCoupling(frame);
-    }
-
-    /// Forces in threads, and between organs since the sample before.
-    void sampleCoupling(int frame) {
-        const double time = frame * frameTime_, passed = time - coupledFrom_;
-        const std::vector<sim::ThreadState> threads = player_.threads();
-        for (std::size_t i = 0; i < threads.size(); ++i) {
-            record_.threads[i].last = threads[i];
-            record_.threads[i].samples.push_back({time, threads[i].force});
-        }
-        const sim::PairLoads loads = player_.takePairLoads();
-        for (PairRecord& pair : record_.contacts) {
-            const int a = parts_.coupled.placeOf(pair.organs[0]), b = parts_.coupled.placeOf(pair.organs[1]);
-            PairRecord::Sample sample{time, {}, 0};
-            if (!loads.empty() && passed > 0) {
-                sample.force = loads[std::size_t(a)][std::size_t(b)].impulse / passed;
-                sample.pressed = loads[std::size_t(a)][std::size_t(b)].pressed / passed;
-            }
-            pair.samples.push_back(sample);
-        }
-        coupledFrom_ = time;
-    }
-
-    void recordCoupling() {
-        record_.threads.resize(parts_.scene.threads.size());
-        const std::vector<std::size_t>& organs = parts_.coupled.organs;
-        for (std::size_t a = 0; a < organs.size(); ++a)
-            for (std::size_t b = a; b < organs.size(); ++b) {
-                const sim::OrganCoupling first = sim::couplingOf(parts_.scene, organs[a]),
-                                         second = sim::couplingOf(parts_.scene, organs[b]);
-                if (a == b ? first.touchesItself : first.touches && second.touches)
-                    record_.contacts.push_back({{organs[a], organs[b]}, {}});
-            }
+        sampleCoupling(parts_, player_, time, record_);
     }
 
     void drawScene(int frame) {
@@ -367,7 +335,6 @@ private:
     StateFiles files_;
     int frames_, firstFrame_ = 0; // the last one, and the one that it begins after
     double frameTime_;            // s
-    double coupledFrom_ = 0;      // s: of the last sample of forces between organs
     render::CameraView camera_;
     RunRecord record_;
     std::set<int> surfaceFrames_, sheetFrames_;

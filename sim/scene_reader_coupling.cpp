@@ -112,7 +112,7 @@ Status checkCoupling(const SceneSource& source, const SceneTable& top,
                                                "organ touch with self_contact = true");
     const bool meets = scene.organsTouch || std::any_of(scene.organs.begin(), scene.organs.end(),
                                                         [](const Organ& organ) { return organ.selfContact; });
-    if (top.has("organ_friction") && !meets)
+    if (scene.organFriction > 0 && !meets)
         return top.errorAt("organ_friction", "has no effect: no organ touches another or itself; set "
                                              "organs_touch = true, or self_contact = true of an organ");
     for (std::size_t i = 0; i < organs.size(); ++i)

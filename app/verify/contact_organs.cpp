@@ -1,6 +1,6 @@
 // The part of the group `contact` about organs that touch each other, and one that folds onto itself
 // (sim/organ_group.h). Two columns of different spacing, one on the other, are held by grasps at their far
-// ends and pressed together: what one gives to the other, the other gives back; each grasp holds what the
+// ends, pressed together: what one gives to the other, the other gives back; each grasp holds what the
 // other organ gives; and the force is that of one column. The limbs of a fork fly at each other and do not
 // pass.
 #include "app/solver_choice.h"
@@ -25,8 +25,8 @@ sim::Tissue columnTissue(const VerifyOptions& options) {
     return tissue;
 }
 
-/// Holds the nodes of a layer at this height, moves up by `way` within 0.1 s, and waits.
-sim::Tool holder(double height, double way) {
+/// Holds the nodes of a layer at this height.
+sim::Tool holder(double height) {
     sim::Tool tool;
     tool.name = "holder";
     tool.mode = sim::ToolMode::grasp;
@@ -34,9 +34,20 @@ sim::Tool holder(double height, double way) {
     tool.shape.kind = sim::ShapeKind::box;
     tool.shape.radius = tool.radius;
     tool.shape.halfSize = {kSide, 2e-4, kSide};
-    const glm::dvec3 at(0.5 * kSide, height, 0.5 * kSide), up(0, way, 0);
-    tool.keys = {{0, at}, {0.1, at + up}, {10, at + up}};
+    const glm::dvec3 at(0.5 * kSide, height, 0.5 * kSide);
+    tool.keys = {{0, at}, {10, at}};
     return tool;
+}
+
+/// Squeezed evenly by kPress over both heights: faces that met still do.
+sim::LatticeState squeezed(const ContactPiece& piece) {
+    sim::LatticeState state = sim::restState(piece.lattice);
+    for (glm::dvec3& position : state.positions) {
+        glm::dvec3 at = piece.lattice.toWorld(position);
+        at.y *= 1 - kPress / (2 * kSide);
+        position = piece.lattice.toLattice(at);
+    }
+    return state;
 }
 
 std::unique_ptr<ContactPiece> column(double spacing, double bottom, int heights, const sim::Tissue& tissue) {
@@ -53,12 +64,14 @@ struct Pressed {
 
 Result<Pressed> pressColumns(const std::string& name, const sim::Tissue& tissue) {
     const auto low = column(kCoarse, 0, 1, tissue), high = column(kFine, kSide, 1, tissue);
-    low->setup.tools = {holder(0, 0)};
-    high->setup.tools = {holder(2 * kSide, -kPress)};
+    low->setup.tools = {holder(0)};
+    high->setup.tools = {holder(2 * kSide - kPress)};
     const double step = std::min(low->setup.timeStep, high->setup.timeStep);
     low->setup.timeStep = high->setup.timeStep = step;
     SEROSA_ASSIGN(const auto first, makeSolver(name, low->setup));
     SEROSA_ASSIGN(const auto second, makeSolver(name, high->setup));
+    first->setState(squeezed(*low));
+    second->setState(squeezed(*high));
     SEROSA_ASSIGN(const auto group,
                   sim::OrganGroup::create({{first.get(), true, false}, {second.get(), true, false}}, {}));
     group->advance(int(0.4 / step));
@@ -77,8 +90,9 @@ Result<Pressed> pressColumns(const std::string& name, const sim::Tissue& tissue)
 /// What a grasp holds of one column of both heights, pressed as far, by the reference, N.
 double wholeColumn(const sim::Tissue& tissue) {
     const auto whole = column(kCoarse, 0, 2, tissue);
-    whole->setup.tools = {holder(0, 0), holder(2 * kSide, -kPress)};
+    whole->setup.tools = {holder(0), holder(2 * kSide - kPress)};
     const auto solver = sim::makeReferenceSolver(whole->setup);
+    solver->setState(squeezed(*whole));
     solver->advance(int(0.4 / whole->setup.timeStep));
     solver->takeLoads();
     const int steps = int(0.05 / whole->setup.timeStep);

@@ -99,8 +99,8 @@ TEST_F(SceneCoupling, EndsThatAreNoEndsAreRefused) {
                   "11:", "'organ' is missing");
     expectRefused(twoOrgans("[[thread]]\nends = [{ organ = \"liver\" }]\n"), "11:", "two ends");
     expectRefused(twoOrgans("[[thread]]\nends = [{ organ = \"liver\" }, { organ = \"liver\" }]\n"),
-                  "11:", "'at' is missing");
-    expectRefused(twoOrgans("[[thread]]\nname = \"x\"\n"), "10:", "'ends' is missing");
+                  "11:", "at' is missing");
+    expectRefused(twoOrgans("[[thread]]\nname = \"x\"\n"), "10:", "ends' is missing");
     expectRefused(twoOrgans("[[thread]]\n" + ends("liver", 5, "liver", 5) + "length = \"1 mm\"\n"),
                   "11:", "to itself");
     expectRefused(twoOrgans("[[thread]]\nkind = \"clip\"\n" + ends("liver", 5, "liver", 5)),
