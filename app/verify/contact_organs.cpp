@@ -5,6 +5,7 @@
 // pass.
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
+#include "app/verify/elastic_measures.h"
 #include "sim/organ_group.h"
 
 #include <algorithm>
@@ -33,8 +34,8 @@ sim::Tool holder(double height) {
     tool.radius = 1e-4;
     tool.shape.kind = sim::ShapeKind::box;
     tool.shape.radius = tool.radius;
-    tool.shape.halfSize = {kSide, 2e-4, kSide};
-    const glm::dvec3 at(0.5 * kSide, height, 0.5 * kSide);
+    tool.shape.halfSize = {kSide, kSide, 2e-4};
+    const glm::dvec3 at(0, 0, height);
     tool.keys = {{0, at}, {10, at}};
     return tool;
 }
@@ -44,19 +45,21 @@ sim::LatticeState squeezed(const ContactPiece& piece) {
     sim::LatticeState state = sim::restState(piece.lattice);
     for (glm::dvec3& position : state.positions) {
         glm::dvec3 at = piece.lattice.toWorld(position);
-        at.y *= 1 - kPress / (2 * kSide);
+        at.z *= 1 - kPress / (2 * kSide);
         position = piece.lattice.toLattice(at);
     }
     return state;
 }
 
+/// A square column along z whose surface is known: one of cells alone has rounded edges for contact.
 std::unique_ptr<ContactPiece> column(double spacing, double bottom, int heights, const sim::Tissue& tissue) {
-    const int across = int(std::lround(kSide / spacing));
-    return std::make_unique<ContactPiece>(glm::ivec3(across, heights * across, across), spacing,
-                                          glm::dvec3(0, bottom, 0), tissue);
+    const double cells = kSide / spacing;
+    Beam beam = makeBeam(cells, heights * cells, glm::dmat3(1), spacing);
+    beam.lattice.origin.z += bottom + 0.5 * heights * kSide;
+    return std::make_unique<ContactPiece>(std::move(beam.lattice), tissue);
 }
 
-/// N along y, over the last 0.05 s of 0.45 s.
+/// N along z, over the last 0.05 s of 0.45 s.
 struct Pressed {
     glm::dvec3 onLow{0}, onHigh{0}; // from the other column
     double held[2] = {0, 0};        // by the grasp of the low and of the high one
@@ -84,7 +87,7 @@ Result<Pressed> pressColumns(const std::string& name, const sim::Tissue& tissue)
     const double time = steps * step;
     return Pressed{loads[0][1].impulse / time,
                    loads[1][0].impulse / time,
-                   {first->takeLoads()[0].impulse.y / time, second->takeLoads()[0].impulse.y / time}};
+                   {first->takeLoads()[0].impulse.z / time, second->takeLoads()[0].impulse.z / time}};
 }
 
 /// What a grasp holds of one column of both heights, pressed as far, by the reference, N.
@@ -97,7 +100,7 @@ double wholeColumn(const sim::Tissue& tissue) {
     solver->takeLoads();
     const int steps = int(0.05 / whole->setup.timeStep);
     solver->advance(steps);
-    return solver->takeLoads()[0].impulse.y / (steps * whole->setup.timeStep);
+    return solver->takeLoads()[0].impulse.z / (steps * whole->setup.timeStep);
 }
 
 Status pressedColumns(const VerifyOptions& options, const std::vector<std::string>& names,
@@ -111,10 +114,10 @@ Status pressedColumns(const VerifyOptions& options, const std::vector<std::strin
         checks.atMost(of + "sum of both forces over one",
                       glm::length(got.onLow + got.onHigh) / glm::length(got.onLow), 1e-12, "1");
         // At rest; drag has e^-60 left of what moved, float32 a few 1e-4 of the force.
-        checks.equalRel(of + "the low one's grasp holds", got.held[0], -got.onLow.y, 0.005, "N");
-        checks.equalRel(of + "the high one's grasp holds", got.held[1], -got.onHigh.y, 0.005, "N");
+        checks.equalRel(of + "the low one's grasp holds", got.held[0], -got.onLow.z, 0.005, "N");
+        checks.equalRel(of + "the high one's grasp holds", got.held[1], -got.onHigh.z, 0.005, "N");
         // Skins may lie a hundredth of a spacing into each other before they are pushed out: 0.03 mm of 1.8.
-        checks.equalRel(of + "force, of one column of both heights", got.onHigh.y, expected, 0.02, "N");
+        checks.equalRel(of + "force, of one column of both heights", got.onHigh.z, expected, 0.02, "N");
     }
     return {};
 }
