@@ -154,7 +154,7 @@ TEST_F(GlCoupling, threadsAreDrawnUntilTheyBreak) {
 }
 
 TEST_F(GlCoupling, endsThatReachNothingAreRefused) {
-    const std::string far = "{ organ = \"high\", at = [\"0 mm\", \"140 mm\", \"0 mm\"] }",
+    const std::string far = "{ organ = \"high\", at = [\"0 mm\", \"200 mm\", \"0 mm\"] }",
                       fixed = "{ organ = \"low\", at = [\"0 mm\", \"-38 mm\", \"0 mm\"] }";
     expectRefused(balls("", thread("suture", "", 5, far)),
                   "an end of suture reaches no node of high: it lies ");
