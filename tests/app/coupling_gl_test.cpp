@@ -75,7 +75,9 @@ protected:
 };
 
 TEST_F(GlCoupling, runsSayWhatOrgansGiveEachOtherAndGoOnWithTheSameBytes) {
-    folder_.write("scene.toml", balls("organs_touch = true\norgan_friction = 0.2\n", kThreads));
+    const std::string burnt = "[[cut]]\nkind = \"cauterize\"\nradius = \"14 mm\"\nkeys = [{ t = \"100 ms\", "
+                              "at = [\"22 mm\", \"30 mm\", \"0 mm\"] }]\n";
+    folder_.write("scene.toml", balls("organs_touch = true\norgan_friction = 0.2\n", kThreads + burnt));
     for (const std::string solver : kSolvers) {
         SCOPED_TRACE(solver);
         const ChildResult whole = run("whole", {"--solver", solver});
@@ -84,6 +86,7 @@ TEST_F(GlCoupling, runsSayWhatOrgansGiveEachOtherAndGoOnWithTheSameBytes) {
         // All organs of the scene may touch, in one step.
         for (const auto& organ : json["organs"])
             EXPECT_EQ(organ["step"]["time_step_s"], json["organs"][0]["step"]["time_step_s"]);
+        EXPECT_GT(json["organs"][0]["cuts"]["springs_cut"], 20);
         ASSERT_EQ(json["contacts"].size(), 3u);
         const nlohmann::json& contact = json["contacts"][0];
         EXPECT_EQ(contact["organs"], nlohmann::json({"low", "high"}));
@@ -109,7 +112,7 @@ TEST_F(GlCoupling, runsSayWhatOrgansGiveEachOtherAndGoOnWithTheSameBytes) {
         EXPECT_EQ(weak["broken_t_s"], after["threads"][1]["broken_t_s"]);
         EXPECT_EQ(suture["force_N"], after["threads"][0]["force_N"]);
     }
-    folder_.write("scene.toml", balls("organs_touch = true\norgan_friction = 0.3\n", kThreads));
+    folder_.write("scene.toml", balls("organs_touch = true\norgan_friction = 0.3\n", kThreads + burnt));
     const ChildResult other = run("rest", {"--from", "whole/snapshot_000012.serosa"});
     EXPECT_EQ(other.exitCode, 2);
     EXPECT_NE(other.err.find("organ_friction is 0.2 in the snapshot, 0.3 here"), std::string::npos)
