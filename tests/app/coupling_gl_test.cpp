@@ -206,6 +206,14 @@ TEST_P(GlCoupledWatchdog, stopsTheGroupAndNoOther) {
     EXPECT_FALSE(player.alarm(0));
     play(14);
     EXPECT_EQ(player.state(1).hash(), later);
+    // More energy than all of them together can have.
+    sim::LatticeState wild = player.state(1);
+    wild.increments[3] += glm::dvec3(20, 0, 0);
+    parts.organs[1]->solver->setState(wild);
+    player.check();
+    ASSERT_TRUE(player.alarm(1));
+    EXPECT_EQ(player.alarm(1)->kind, sim::AlarmKind::energy);
+    EXPECT_EQ(player.alarm(1)->node, 3u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, GlCoupledWatchdog,
