@@ -45,6 +45,14 @@ std::size_t sharedNodes(const sim::Tool& first, const sim::Tool& second, const P
     return shared;
 }
 
+/// Another organ or a thread may hold it.
+bool isCoupled(const sim::Scene& scene, const sim::Organ& organ) {
+    for (std::size_t i = 0; i < scene.organs.size(); ++i)
+        if (const sim::OrganCoupling coupling = sim::couplingOf(scene, i); scene.organs[i].name == organ.name)
+            return coupling.touches || coupling.tied;
+    return false;
+}
+
 std::string beginsInside(const std::string& name, const std::string& organ, double metres, const char* what) {
     return name + " begins inside of " + organ + ", " + shortNumber(1e3 * metres) + " mm deep: " + what;
 }
@@ -91,7 +99,8 @@ std::vector<std::string> contactNotes(const sim::Scene& scene, const std::vector
                 notes.push_back(beginsInside(body.name, organ, deep * lattice.spacing,
                                              "it pushes the tissue out slowly; put the organ beside it"));
         const bool free = std::find(placed.fixed->begin(), placed.fixed->end(), true) == placed.fixed->end();
-        if (free && scene.gravity != glm::dvec3(0) && scene.bodies.empty())
+        if (free && !isCoupled(scene, *placed.organ) && scene.gravity != glm::dvec3(0) &&
+            scene.bodies.empty())
             notes.push_back("no node of " + organ + " is fixed, and there is no floor: it falls");
     }
     return notes;

@@ -53,7 +53,7 @@ Result<OrganSurface> loadSurface(const sim::Organ& organ, const std::filesystem:
         surface.repair = solid->report;
     surface.metres = surface.file;
     for (glm::dvec3& position : surface.metres.positions)
-        position = sim::worldFromFile(organ.upAxis, position) * organ.lengthUnit;
+        position = organ.at + sim::worldFromFile(organ.upAxis, position) * organ.lengthUnit;
     return surface;
 }
 

@@ -4,6 +4,7 @@
 #include "app/run.h"
 
 #include "app/contact_notes.h"
+#include "app/coupling_record.h"
 #include "app/material_lines.h"
 #include "app/output_folder.h"
 #include "app/progress.h"
@@ -78,6 +79,7 @@ public:
             if (organ->solver)
                 record_.solver = solver;
         }
+        beginCoupling(parts, record_);
         const sim::Output& output = parts.scene.output;
         for (const double time : output.surfacesAt)
             surfaceFrames_.insert(frameAt(time));
@@ -230,12 +232,14 @@ private:
         }
         record_.largestDisplacement = std::max(record_.largestDisplacement, sum.largestDisplacement);
         record_.samples.push_back(sum);
+        sampleCoupling(parts_, player_, time, record_);
     }
 
     void drawScene(int frame) {
-        const render::View view{
-            camera_, parts_.scene.light, parts_.scene.look,
-            render::drawnShapes(parts_.scene, frame * frameTime_, parts_.lowest(), parts_.highest())};
+        const double time = frame * frameTime_;
+        const render::View view{camera_, parts_.scene.light, parts_.scene.look,
+                                render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
+                                drawnThreads(parts_, player_.threads(), time)};
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
     }
@@ -372,6 +376,8 @@ std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out)
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         describeOrgan(parts.scene.organs[i], *parts.organs[i], parts.levels[i], out, notes);
     for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
+        notes.push_back(std::move(note));
+    for (std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
         notes.push_back(std::move(note));
     if (parts.timesLeftOut > 0)
         notes.push_back(std::to_string(parts.timesLeftOut) +

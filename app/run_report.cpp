@@ -2,6 +2,7 @@
 
 #include "app/run_report.h"
 
+#include "app/coupling_tables.h"
 #include "app/html_page.h"
 #include "app/organ_setup.h"
 #include "app/run_tables.h"
@@ -158,6 +159,8 @@ void writePlots(Markup& page, const Json& summary) {
     }
     if (!force.series.empty())
         writePlot(page, force);
+    if (const Plot coupling = couplingPlot(summary, end); !coupling.series.empty())
+        writePlot(page, coupling);
     writePlot(page, {"plot-energies",
                      "Energies",
                      "J",
@@ -224,6 +227,11 @@ std::string runReport(const Json& summary, const RunPictures& pictures, const st
     if (const std::vector<Json> colliders = collidersOf(summary); !colliders.empty()) {
         beginSection(page, "tools", summary.contains("bodies") ? "Tools and bodies" : "Tools");
         writeToolTable(page, summary);
+        page.close();
+    }
+    if (hasCoupling(summary)) {
+        beginSection(page, "coupling", "Organs that touch, and threads");
+        writeCouplingTables(page, summary);
         page.close();
     }
     beginSection(page, "setup", "What was simulated");

@@ -161,6 +161,7 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     SEROSA_TRY(readSceneAndSurfaces(options, parts));
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(prepareOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i]));
+    SEROSA_TRY(prepareCoupling(parts));
     if (options.hands)
         addHands(parts);
     SEROSA_TRY(checkGrasps(parts.scene, parts.placedOrgans()));
@@ -180,6 +181,7 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
                                                       parts.scene.output.height));
         parts.renderer.emplace(std::move(renderer));
     }
+    SEROSA_TRY(makeGroup(parts));
     parts.levels.resize(parts.organs.size());
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(OrganLevels::prepare(options, parts, i));

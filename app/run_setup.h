@@ -4,6 +4,7 @@
 
 #include "app/contact_notes.h"
 #include "app/hands.h"
+#include "app/organ_coupling.h"
 #include "app/organ_levels.h"
 #include "app/organ_setup.h"
 #include "app/run.h"
@@ -40,6 +41,7 @@ struct RunParts {
     std::unique_ptr<gpu::Context> context;           // dies after all GL objects below
     std::vector<std::unique_ptr<OrganParts>> organs; // one an organ of the scene, in its order
     std::vector<OrganLevels> levels;                 // one an organ: its levels of detail
+    CoupledOrgans coupled;                           // those that step together
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
     std::optional<Hands> hands; // where they were asked for; their tools are the scene's last ones
     std::size_t timesLeftOut =

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/contact_notes.h"
 #include "app/material_lines.h"
+#include "app/organ_coupling.h"
 #include "app/organ_setup.h"
 #include "app/pose.h"
 #include "sim/quantity.h"
@@ -52,7 +53,19 @@ Result<std::vector<Derived>> deriveAll(const sim::Scene& scene) {
         all.push_back(std::move(derived));
     }
     SEROSA_TRY(checkGrasps(scene, placedOrgans(scene, all)));
+    SEROSA_TRY(tieThreads(scene, placedOrgans(scene, all)));
+    std::vector<sim::StableStep*> together;
+    for (const std::size_t i : coupledOrgans(scene))
+        together.push_back(&all[i].step);
+    shareStep(together, 1 / scene.frameRate);
     return all;
+}
+
+std::vector<std::string> sceneNotes(const sim::Scene& scene, const std::vector<Derived>& organs) {
+    std::vector<std::string> notes = contactNotes(scene, placedOrgans(scene, organs));
+    for (std::string& note : couplingNotes(scene, placedOrgans(scene, organs)))
+        notes.push_back(std::move(note));
+    return notes;
 }
 
 void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream& out) {
@@ -108,6 +121,8 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     out << grouped(faces) << " faces, " << grouped(nodes) << " nodes, " << scene.tools.size() << " tools";
     if (!scene.bodies.empty())
         out << ", " << scene.bodies.size() << (scene.bodies.size() == 1 ? " body" : " bodies");
+    if (!scene.threads.empty())
+        out << ", " << scene.threads.size() << (scene.threads.size() == 1 ? " thread" : " threads");
     if (steps > 0)
         out << ", " << steps << " steps a frame";
     out << "\n";
@@ -119,7 +134,7 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
         for (const std::string& note : materialNotes(scene.organs[i], organs[i].lattice))
             out << "note: " << note << "\n";
     }
-    for (const std::string& note : contactNotes(scene, placedOrgans(scene, organs)))
+    for (const std::string& note : sceneNotes(scene, organs))
         out << "note: " << note << "\n";
     return int(exitOk);
 }
@@ -142,7 +157,7 @@ Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& ou
             out << "\n" << std::setw(34) << "organ" << scene.organs[i].name << "\n";
         printDerived(scene.organs[i], organs[i], out);
     }
-    for (const std::string& note : contactNotes(scene, placedOrgans(scene, organs)))
+    for (const std::string& note : sceneNotes(scene, organs))
         out << std::setw(34) << "note" << note << "\n";
     return int(exitOk);
 }

@@ -14,8 +14,10 @@ ScenePlayer::ScenePlayer(RunParts& parts)
       shownConnections_(parts.organs.size()), posed_(parts.organs.size()), guards_(parts.organs.size()),
       levelChoices_(parts.organs.size()), changes_(parts.organs.size()) {
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
-        if (parts.organs[i]->solver)
+        if (parts.organs[i]->solver && parts.coupled.placeOf(i) < 0)
             newGuard(i);
+    if (parts.coupled.group)
+        group_.emplace(parts, cuts_);
     reset();
 }
 
@@ -59,6 +61,8 @@ void ScenePlayer::cut(std::size_t i) {
 void ScenePlayer::showCuts(std::size_t i) {
     const OrganParts& organ = *parts_.organs[i];
     const std::vector<std::uint32_t> connections = organ.solver->state().connections;
+    if (connections != shownConnections_[i] && parts_.coupled.placeOf(i) >= 0)
+        parts_.coupled.group->reconnect(std::size_t(parts_.coupled.placeOf(i)));
     if (connections != shownConnections_[i])
         parts_.renderer->showCuts(i, organ.lattice, organ.surface.metres, organ.binding,
                                   organ.textures().layout(),
@@ -66,9 +70,25 @@ void ScenePlayer::showCuts(std::size_t i) {
     shownConnections_[i] = connections;
 }
 
+void ScenePlayer::advanceCoupled() {
+    if (!group_ || group_->frozen())
+        return;
+    const std::vector<std::size_t>& organs = parts_.coupled.organs;
+    parts_.coupled.group->advance(parts_.organs[organs.front()]->step.stepsPerFrame);
+    for (const std::size_t i : organs)
+        cut(i);
+    group_->endFrame(frame_);
+    for (const std::size_t i : organs)
+        if (parts_.organs[i]->uploaded)
+            parts_.organs[i]->uploaded->upload(parts_.organs[i]->solver->state());
+}
+
 void ScenePlayer::advance() {
     ++frame_;
+    advanceCoupled();
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
+        if (parts_.coupled.placeOf(i) >= 0)
+            continue;
         if (guards_[i]) {
             if (!guards_[i]->frozen())
                 takeSteps(i);
@@ -89,11 +109,17 @@ void ScenePlayer::advance() {
 void ScenePlayer::check() {
     for (std::size_t i = 0; i < parts_.organs.size(); ++i)
         check(i);
+    if (group_ && group_->check(frame_))
+        for (const std::size_t i : parts_.coupled.organs)
+            showState(i);
 }
 
 void ScenePlayer::check(std::size_t i) {
-    if (!guards_[i] || !guards_[i]->check(frame_))
-        return;
+    if (guards_[i] && guards_[i]->check(frame_))
+        showState(i);
+}
+
+void ScenePlayer::showState(std::size_t i) {
     OrganParts& organ = *parts_.organs[i];
     showCuts(i);
     if (organ.uploaded)
@@ -112,12 +138,15 @@ void ScenePlayer::reset() {
             cuts_[i].clear();
             showCuts(i);
             startLevel(i);
-            guards_[i]->restart(0);
+            if (guards_[i])
+                guards_[i]->restart(0);
         }
         OrganParts& now = *parts_.organs[i]; // on its first level of detail
         if (now.uploaded)
             now.uploaded->upload(sim::restState(now.lattice));
     }
+    if (group_)
+        group_->restart(0);
 }
 
 int ScenePlayer::stepsPerFrame() const {
@@ -142,6 +171,8 @@ std::string ScenePlayer::stateHash() const {
 }
 
 std::optional<sim::Alarm> ScenePlayer::alarm(std::size_t organ) const {
+    if (parts_.coupled.placeOf(organ) >= 0)
+        return group_->alarm(organ);
     return guards_[organ] ? guards_[organ]->alarm() : std::nullopt;
 }
 
@@ -153,7 +184,17 @@ std::vector<std::string> ScenePlayer::alarmLines() const {
     return lines;
 }
 
+std::vector<sim::ThreadState> ScenePlayer::threads() const {
+    return group_ ? parts_.coupled.group->threads() : std::vector<sim::ThreadState>();
+}
+
+sim::PairLoads ScenePlayer::takePairLoads() {
+    return group_ ? group_->takePairLoads() : sim::PairLoads();
+}
+
 std::vector<FrameLoads> ScenePlayer::takeLoads(std::size_t organ, bool all) {
+    if (parts_.coupled.placeOf(organ) >= 0)
+        return group_->takeLoads(organ, all);
     return guards_[organ] ? guards_[organ]->takeLoads(all) : std::vector<FrameLoads>();
 }
 

@@ -2,6 +2,7 @@
 // A scene's state, frame by frame. A frame is always the same number of steps, so what comes after 300 of
 // them is the same bytes however they were paced and drawn: `serosa view` plays what `serosa run` runs.
 
+#include "app/group_guard.h"
 #include "app/level_state.h"
 #include "app/organ_guard.h"
 #include "app/run_setup.h"
@@ -48,6 +49,10 @@ public:
     std::optional<sim::Alarm> alarm(std::size_t organ) const;
     /// "NAME: ..." a line for each organ that is frozen.
     std::vector<std::string> alarmLines() const;
+    /// Of the scene's threads: forces are those of the last step (waits for the GPU).
+    std::vector<sim::ThreadState> threads() const;
+    /// What coupled organs gave each other: as GroupGuard::takePairLoads, in the order of RunParts::coupled.
+    sim::PairLoads takePairLoads();
     /// What tools and bodies gave to an organ, frame by frame, as OrganGuard::takeLoads; empty for a pose.
     std::vector<FrameLoads> takeLoads(std::size_t organ, bool all = false);
 
@@ -61,6 +66,8 @@ private:
     /// cut organ stays on its level, and tools that hold tissue must let go first.
     void takeSteps(std::size_t organ);
     void changeLevel(std::size_t organ, int level, const std::vector<glm::dvec3>& before);
+    /// A frame of the organs that step together, if there are any.
+    void advanceCoupled();
     /// Another level's solver is the organ's.
     void newGuard(std::size_t organ);
     /// At rest, on the level that a run begins with.
@@ -70,6 +77,8 @@ private:
     /// On its level, whose solver's state is set by others.
     void restoreLevel(std::size_t organ, int level, const LevelState& state);
     void check(std::size_t organ);
+    /// The renderer draws an organ's state, which was set back.
+    void showState(std::size_t organ);
 
     /// The scene's cuts and tears of the frame that ends now.
     void cut(std::size_t organ);
@@ -82,9 +91,10 @@ private:
     std::vector<std::size_t> lastCut_;                         // of the scene, that each organ met
     std::vector<std::vector<std::uint32_t>> shownConnections_; // one an organ; empty: nothing is cut
     std::vector<std::optional<sim::LatticeState>> posed_;      // one an organ
-    std::vector<std::optional<OrganGuard>> guards_;            // one an organ; none for a pose
-    std::vector<LevelChoice> levelChoices_;                    // one an organ
-    std::vector<std::vector<LevelChange>> changes_;            // one an organ
+    std::vector<std::optional<OrganGuard>> guards_; // one an organ; none for a pose, or of the group
+    std::optional<GroupGuard> group_;               // of coupled organs
+    std::vector<LevelChoice> levelChoices_;         // one an organ
+    std::vector<std::vector<LevelChange>> changes_; // one an organ
 };
 
 } // namespace serosa::app

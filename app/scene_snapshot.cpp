@@ -55,8 +55,8 @@ std::string printable(std::string text) {
 
 } // namespace
 
-std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, const sim::Organ& organ,
-                                    const OrganParts& parts) {
+std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, std::size_t index, const OrganParts& parts) {
+    const sim::Organ& organ = scene.organs[index];
     std::vector<sim::Trait> traits{{"frame_rate", sim::traitValue({scene.frameRate}, "Hz")}};
     if (organ.pose) {
         traits.push_back({"bend_radius", sim::traitValue({organ.pose->bendRadius}, "m")});
@@ -67,6 +67,8 @@ std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, const sim::Organ& o
     traits.push_back({"cuts", cutsTrait(scene.cuts)});
     if (organ.levels > 1)
         traits.push_back({"levels", levelsTrait(organ)});
+    const std::vector<sim::Trait> ofCoupling = couplingTraits(scene, index);
+    traits.insert(traits.end(), ofCoupling.begin(), ofCoupling.end());
     traits.push_back({"tear_strain", sim::traitValue({organ.tearStrain}, "")});
     return traits;
 }
@@ -115,15 +117,17 @@ Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, RunP
         const std::string solver = !organ.solver       ? kPose
                                    : options.anySolver ? ""
                                                        : std::string(organ.solver->name());
-        const Status fits =
-            sim::checkSnapshot(snapshot.organs[i], parts.scene.organs[i].name, solver,
-                               sceneTraits(parts.scene, parts.scene.organs[i], organ), organ.lattice);
+        const Status fits = sim::checkSnapshot(snapshot.organs[i], parts.scene.organs[i].name, solver,
+                                               sceneTraits(parts.scene, i, organ), organ.lattice);
         if (!fits.ok())
             return Error{name + fits.error().message};
         if (!LevelState::parse(saved.levelState, parts, i, int(snapshot.frame)))
             return Error{name + saved.name +
                          ": what it says of levels of detail makes no sense: write the snapshot again"};
     }
+    if (snapshot.threads.size() != parts.coupled.threads.size())
+        return Error{name + "belongs to another scene: it has " + std::to_string(snapshot.threads.size()) +
+                     " threads, this scene " + std::to_string(parts.coupled.threads.size())};
     if (snapshot.frame >= parts.scene.frames())
         return Error{name + "is of frame " + std::to_string(snapshot.frame) + ", and the run ends at frame " +
                      std::to_string(parts.scene.frames()) + ": give more with duration or --frames"};
@@ -162,6 +166,10 @@ Result<int> inspectSnapshot(const std::filesystem::path& file, std::ostream& out
         for (const sim::Trait& trait : organ.traits)
             line("  " + trait.name, trait.value);
     }
+    for (std::size_t i = 0; i < snapshot.threads.size(); ++i)
+        line("thread",
+             std::to_string(i + 1) + ": " +
+                 (snapshot.threads[i].broken ? "broken" : shortNumber(snapshot.threads[i].force) + " N"));
     return int(exitOk);
 }
 
@@ -175,7 +183,7 @@ sim::Snapshot ScenePlayer::snapshot() {
         const OrganParts& parts = *parts_.organs[i];
         sim::OrganSnapshot organ;
         organ.name = parts_.scene.organs[i].name;
-        organ.traits = sceneTraits(parts_.scene, parts_.scene.organs[i], parts);
+        organ.traits = sceneTraits(parts_.scene, i, parts);
         organ.cuts = cuts_[i].entries();
         organ.lastCut = lastCut_[i];
         organ.level = std::uint32_t(parts_.levels[i].active());
@@ -188,6 +196,7 @@ sim::Snapshot ScenePlayer::snapshot() {
         }
         snapshot.organs.push_back(std::move(organ));
     }
+    snapshot.threads = threads();
     return snapshot;
 }
 
@@ -206,13 +215,16 @@ void ScenePlayer::restore(const sim::Snapshot& snapshot) {
             const Status done = sim::restoreSnapshot(organ, *parts.solver);
             SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
             showCuts(i);
-            guards_[i]->restart(frame_);
+            if (guards_[i])
+                guards_[i]->restart(frame_);
         } else {
             posed_[i] = organ.state;
         }
         if (parts.uploaded)
             parts.uploaded->upload(organ.state);
     }
+    if (group_)
+        group_->restart(frame_, snapshot.threads);
 }
 
 } // namespace serosa::app

@@ -11,9 +11,8 @@
 
 namespace serosa::app {
 
-/// All that an organ's motion depends on: its setup, the scene's clock and cuts, tearing, its pose.
-std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, const sim::Organ& organ,
-                                    const OrganParts& parts);
+/// All that an organ's motion depends on: its setup, the scene's clock and cuts, tearing, coupling, its pose.
+std::vector<sim::Trait> sceneTraits(const sim::Scene& scene, std::size_t organ, const OrganParts& parts);
 
 /// What does the arithmetic here, in words; needs a context.
 std::string machineOf(const RunParts& parts);

@@ -2,6 +2,7 @@
 
 #include "app/summary.h"
 
+#include "app/coupling_json.h"
 #include "app/material_lines.h"
 #include "app/version.h"
 #include "shaders/shared_constants.h"
@@ -332,6 +333,10 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     json["tools"] = toolsJson(record);
     if (!scene.bodies.empty())
         json["bodies"] = bodiesJson(record);
+    if (!record.contacts.empty())
+        json["contacts"] = contactsJson(record);
+    if (!record.threads.empty())
+        json["threads"] = threadsJson(record);
     if (!record.notes.empty())
         json["notes"] = record.notes;
     json["state_hash"] = record.stateHash();

@@ -11,6 +11,7 @@
 #include "sim/scene.h"
 #include "sim/solver.h"
 #include "sim/texture_layout.h"
+#include "sim/thread_hold.h"
 #include "sim/watchdog.h"
 
 #include <glm/glm.hpp>
@@ -33,6 +34,26 @@ struct ForceSample {
     double time = 0;                  // s: end of the frame
     std::vector<sim::ToolLoad> means; // over the frame, one a collider: N and N m, where loads have N s and
                                       // N m s
+};
+
+/// Of one thread of the scene.
+struct ThreadRecord {
+    struct Sample {
+        double time = 0, force = 0; // s; N, averaged
+    };
+    std::vector<Sample> samples;
+    sim::ThreadState last;
+};
+
+/// Contact of two organs of the scene, or of one with itself.
+struct PairRecord {
+    struct Sample {
+        double time = 0;     // s: end of the time since the sample before, over which these are means
+        glm::dvec3 force{0}; // N, on the first from the second; none of contact with itself
+        double pressed = 0;  // N: sum of the sizes of the normal forces on the nodes
+    };
+    std::size_t organs[2] = {0, 0};
+    std::vector<Sample> samples;
 };
 
 struct RunTimes { // s of wall time
@@ -82,6 +103,8 @@ struct RunRecord {
     double largestDisplacement = 0;    // m, over the samples and organs
     std::vector<EnergySample> samples; // sums over the organs
     std::vector<ForceSample> forces;   // sums over the organs
+    std::vector<ThreadRecord> threads; // in the scene's order
+    std::vector<PairRecord> contacts;  // of organs that may touch
     std::vector<std::string> notes;    // what was said before the first step
     RunTimes times;
 

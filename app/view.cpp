@@ -193,6 +193,7 @@ private:
         view.light = parts_.scene.light;
         view.look = controls_.look;
         view.wireframe = controls_.wireframe;
+        view.threads = drawnThreads(parts_, player_.threads(), player_.time());
         view.shapes = render::drawnShapes(parts_.scene, player_.time(), parts_.lowest(), parts_.highest());
         return view;
     }
@@ -319,6 +320,8 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
     const InterruptGuard interrupt;
     View view(parts, *window, options, out);
     for (const std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
+        out << "note: " << note << std::endl;
+    for (const std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
         out << "note: " << note << std::endl;
     out << "view: " << parts.scene.organs.front().name << ", " << parts.context->info().renderer << std::endl;
     return view.loop(interrupt);

@@ -55,6 +55,8 @@ Status benchTissue(const Options& options, Report& report);
 /// What contact, friction, grasps and the readback of forces cost as shares of a frame
 /// (bench/contact_cases.cpp).
 Status benchContact(const Options& options, Report& report);
+/// The part of it about organs that touch each other or themselves, and threads (bench/coupling_cases.cpp).
+Status benchCoupling(const Options& options, Report& report);
 /// A step at h, 2h, 4h, a switch between them, and the tree of boxes beside a step (bench/lod_cases.cpp).
 Status benchLod(const Options& options, Report& report);
 /// Simulated seconds a second, and how many nodes keep up with time (bench/realtime_cases.cpp).

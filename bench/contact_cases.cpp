@@ -170,7 +170,7 @@ Status benchContact(const Options& options, Report& report) {
     for (const char* solver : kSolvers)
         report.ratio(std::string("loads_ring_over_none_") + solver,
                      rounds.ratio(solver + list[4].name, solver + list[3].name));
-    return {};
+    return benchCoupling(options, report);
 }
 
 } // namespace serosa::bench

@@ -42,6 +42,7 @@ struct SurfaceRenderer::Impl {
     std::vector<std::vector<std::optional<DrawnOrgan>>> levels;
     std::vector<std::size_t> level; // that is drawn, one an organ
     ToolRenderer tools;
+    ThreadRenderer threads;
     gpu::Program backdrop;
     gpu::VertexArray empty;
     PictureTarget target;
@@ -77,11 +78,13 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
                                                 const sim::StateTextures& state, int width, int height) {
     SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
     SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
+    SEROSA_ASSIGN(ThreadRenderer threads, ThreadRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
     auto impl = std::make_unique<Impl>(Impl{{},
                                             {},
                                             {},
                                             std::move(tools),
+                                            std::move(threads),
                                             std::move(backdrop),
                                             gpu::VertexArray("no attributes"),
                                             PictureTarget(width, height)});
@@ -177,6 +180,11 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     for (std::size_t i = 0; i < in.organs.size() && view.look.surface; ++i)
         in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    std::vector<const sim::Lattice*> placements;
+    for (const DrawnOrgan& organ : in.organs)
+        placements.push_back(&organ.placement);
+    if (view.look.tools)
+        in.threads.draw(frames[0], placements, states, view.threads);
     if (view.look.tools)
         in.tools.draw(frames[0], in.organs[0].placement, view.shapes);
     for (std::size_t i = 0; i < in.organs.size() && view.look.lattice; ++i)
@@ -214,6 +222,7 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
         lattices.push_back(std::move(lattice));
     }
     SEROSA_ASSIGN(ToolRenderer::Programs tools, ToolRenderer::compile(library));
+    SEROSA_ASSIGN(gpu::Program threads, ThreadRenderer::compile(library));
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(library));
     const auto exchange = [&] {
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -221,11 +230,12 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
             std::swap(impl_->organs[i].lattice.program(), lattices[i]);
         }
         std::swap(impl_->tools.programs(), tools);
+        std::swap(impl_->threads.program(), threads);
         std::swap(impl_->backdrop, backdrop);
     };
     exchange();
     std::vector<gpu::Program*> all = {&impl_->tools.programs().tool, &impl_->tools.programs().floor,
-                                      &impl_->backdrop};
+                                      &impl_->threads.program(), &impl_->backdrop};
     for (DrawnOrgan& organ : impl_->organs) {
         all.push_back(&organ.lattice.program());
         for (auto& [key, program] : organ.surface.programs())
@@ -242,6 +252,7 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
         shape.shape.kind = finish == Finish::floor ? sim::ShapeKind::halfSpace : sim::ShapeKind::sphere;
         rehearsal.shapes.push_back(shape);
     }
+    rehearsal.threads.emplace_back(); // from a node to itself
     for (const sim::Mapping mapping :
          {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
         for (const sim::SurfaceColour colour :

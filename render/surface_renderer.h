@@ -8,6 +8,7 @@
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/surface_binding.h"
+#include "render/thread_renderer.h"
 #include "render/tool_shapes.h"
 #include "sim/scene.h"
 #include "sim/state_textures.h"
@@ -22,8 +23,9 @@ struct View {
     CameraView camera;
     sim::Light light;
     sim::Look look;
-    std::vector<DrawnShape> shapes; // tools and bodies (render/tool_shapes.h)
-    bool wireframe = false;         // the surface as the edges of its front faces
+    std::vector<DrawnShape> shapes;   // tools and bodies (render/tool_shapes.h)
+    std::vector<DrawnThread> threads; // between organs, drawn where tools are
+    bool wireframe = false;           // the surface as the edges of its front faces
 };
 
 /// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.

@@ -31,6 +31,10 @@ uvec3 g_corners;
 vec3 g_weights, g_normal, g_apart;
 
 void tryTriangle(uint node, vec3 point, vec3 normal, float s, uvec3 corners, bool itself) {
+    vec3 faces = vec3(dot(b_skin[corners.x].normal.xyz, normal), dot(b_skin[corners.y].normal.xyz, normal),
+                      dot(b_skin[corners.z].normal.xyz, normal));
+    if (all(greaterThanEqual(faces, vec3(0.0))))
+        return; // no point of it is against the node's normal
     vec3 a = b_skin[corners.x].point.xyz + s * b_motion[corners.x].increment.xyz - point,
          b = b_skin[corners.y].point.xyz + s * b_motion[corners.y].increment.xyz - point,
          c = b_skin[corners.z].point.xyz + s * b_motion[corners.z].increment.xyz - point;

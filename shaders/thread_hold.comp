@@ -13,7 +13,7 @@ struct HeldThread {
 layout(std430) restrict readonly buffer b_threads { HeldThread b_thread[]; };
 
 struct ThreadNow { // group units; sums since they were last taken
-    float startLength, force, broken, impulse, work, given;
+    float startLength, force, most, broken, brokenAfter, impulse, work, given;
 };
 layout(std430) restrict buffer b_threadStates { ThreadNow b_threadNow[]; };
 
@@ -93,8 +93,10 @@ void main() {
         b_threadNow[i].impulse += force;
         b_threadNow[i].work += max(0.0, force * (lengthAt(i, u_elapsed[i]) - lengthAt(i, u_elapsed[i] + u_timeStep)));
         b_threadNow[i].force += (abs(force) - b_threadNow[i].force) * u_meanShare;
+        b_threadNow[i].most = max(b_threadNow[i].most, b_threadNow[i].force);
         if (b_threadNow[i].force > b_thread[i].strength) {
             b_threadNow[i].broken = 1.0;
+            b_threadNow[i].brokenAfter = u_elapsed[i] + u_timeStep;
             b_threadNow[i].force = 0.0;
         }
     }

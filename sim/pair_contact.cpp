@@ -128,6 +128,9 @@ std::optional<PairContact> PairContacts::touch(std::uint32_t node, std::uint32_t
         bool found = false;
         boxes_[organ].near(p, distance2, [&](std::size_t i) {
             const glm::uvec3 t = group_.triangles[other.firstTriangle + i];
+            const auto faces = [&](int k) { return glm::dot(normals_[t[k]], normals_[node]); };
+            if (faces(0) >= 0 && faces(1) >= 0 && faces(2) >= 0)
+                return; // no point of it is against the node's normal: most of a skin, cheaply
             const auto corner = [&](int k) { return points_[t[k]] + s * motion.increments[t[k]]; };
             const TrianglePoint closest = closestPointOnTriangle(p, corner(0), corner(1), corner(2));
             const glm::dvec3 apart = p - closest.point;

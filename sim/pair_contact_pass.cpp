@@ -31,7 +31,7 @@ struct ThreadRecord {
     std::int32_t clip, unused[3];
 };
 struct ThreadNow {
-    float startLength, force, broken, impulse, work, given;
+    float startLength, force, most, broken, brokenAfter, impulse, work, given;
 };
 constexpr std::size_t kMotionBytes = 64, kSkinBytes = 32, kBoxBytes = 32, kTouchBytes = 80;
 
@@ -125,8 +125,8 @@ public:
         threadStates_.download(0, now.size() * sizeof now[0], now.data());
         for (const ThreadNow& t : now)
             states.push_back({t.startLength < 0 ? -1 : double(t.startLength) * group_.length,
-                              t.force * newton(), t.broken != 0, t.impulse * newton() * timeStep_,
-                              t.work * newton() * group_.length});
+                              t.force * newton(), t.most * newton(), t.broken != 0, t.brokenAfter,
+                              t.impulse * newton() * timeStep_, t.work * newton() * group_.length});
         return states;
     }
 
@@ -135,8 +135,8 @@ public:
         std::vector<ThreadNow> now;
         for (const ThreadState& s : states)
             now.push_back({s.startLength < 0 ? -1 : float(s.startLength / group_.length),
-                           float(s.force / newton()), s.broken ? 1.0F : 0.0F,
-                           float(s.impulse / (newton() * timeStep_)),
+                           float(s.force / newton()), float(s.mostForce / newton()), s.broken ? 1.0F : 0.0F,
+                           float(s.brokenAfter), float(s.impulse / (newton() * timeStep_)),
                            float(s.work / (newton() * group_.length)), 0});
         if (!now.empty())
             threadStates_.upload(0, now.size() * sizeof now[0], now.data());

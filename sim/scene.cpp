@@ -21,6 +21,26 @@ std::string organFileName(const Organ& organ) {
     return name;
 }
 
+OrganCoupling couplingOf(const Scene& scene, std::size_t index) {
+    const Organ& organ = scene.organs[index];
+    OrganCoupling coupling;
+    if (organ.pose)
+        return coupling;
+    for (const Thread& thread : scene.threads)
+        for (const ThreadEnd& end : thread.ends)
+            if (end.organ == organ.name) {
+                coupling.tied = true;
+                coupling.line = end.line;
+            }
+    coupling.touchesItself = organ.selfContact;
+    if (organ.selfContact)
+        coupling.line = organ.selfContactLine;
+    coupling.touches = scene.organsTouch;
+    if (scene.organsTouch)
+        coupling.line = scene.organsTouchLine;
+    return coupling;
+}
+
 int Scene::frames() const {
     return std::max(1, int(std::lround(std::min(duration * frameRate, kMostFrames))));
 }

@@ -40,6 +40,7 @@ struct Organ {
     std::filesystem::path model; // resolved against the scene file's folder
     int modelLine = 0;           // of the scene file, for messages; 0: none
     double lengthUnit = 0;       // m per file unit
+    glm::dvec3 at{0};            // m, world: where the model's origin lies
     UpAxis upAxis = UpAxis::y;   // of the file
     bool repair = false;         // mend what sim/mesh_repair.h names
     std::size_t nodes = 20000;
@@ -51,6 +52,8 @@ struct Organ {
         0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
+    bool selfContact = false; // its parts touch each other
+    int selfContactLine = 0;  // of the scene file, for messages
     // Level of detail (sim/lod.h): level 1 is the lattice above, each further one has twice its spacing.
     int levels = 1;                      // at most kMostLevels
     std::vector<LevelKey> levelKeys;     // rising times
@@ -111,7 +114,10 @@ struct Scene {
     double frameRate = 60;           // Hz
     double duration = 2;             // s
     glm::dvec3 gravity{0, -9.81, 0}; // m/s2
-    std::vector<Organ> organs;       // one to kMostOrgans; they do not touch each other yet
+    std::vector<Organ> organs;       // one to kMostOrgans
+    bool organsTouch = false;        // each other
+    int organsTouchLine = 0;         // of the scene file, for messages
+    double organFriction = 0;        // Coulomb's coefficient where organs touch each other or themselves
     std::vector<Tool> tools;
     std::vector<Body> bodies;
     std::vector<Thread> threads;
@@ -123,6 +129,16 @@ struct Scene {
 
     int frames() const; // duration * frameRate, rounded; at least 1
 };
+
+/// How an organ is coupled with others or with itself (sim/organ_group.h).
+struct OrganCoupling {
+    bool touches = false, touchesItself = false, tied = false; // tied: by a thread
+    int line = 0;                                              // of the scene file, that says so
+
+    bool any() const { return touches || touchesItself || tied; }
+};
+/// Of one organ of the scene. None of an organ with a pose.
+OrganCoupling couplingOf(const Scene& scene, std::size_t organ);
 
 /// One value of a scene, for `serosa scene explain`.
 struct SceneValue {

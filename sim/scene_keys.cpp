@@ -92,11 +92,17 @@ std::vector<SceneKey> generalKeys() {
                  "simulated time; rounded to whole frames, at least one"),
         quantity("", "gravity", Dim::acceleration, kAny, "[\"0 m/s2\", \"-9.81 m/s2\", \"0 m/s2\"]",
                  "acceleration of gravity, y is up", Kind::quantity3),
-        plain("", "organ", Kind::tables, kAny, nullptr,
-              "the organs, one to eight; they move on their own and do not touch each other yet"),
+        plain("", "organs_touch", Kind::boolean, kAny, "false",
+              "organs push each other where they meet (see Organs that touch above); else they pass through "
+              "each other"),
+        plain("", "organ_friction", Kind::number, kNotNegative, "0",
+              "Coulomb's coefficient where organs touch each other or themselves"),
+        plain("", "organ", Kind::tables, kAny, nullptr, "the organs, one to eight"),
         plain("", "tool", Kind::tables, kAny, "", "the scripted tools, at most seven"),
         plain("", "body", Kind::tables, kAny, "",
               "what is rigid and does not move: floors, tables, bones; with the tools at most twelve"),
+        plain("", "thread", Kind::tables, kAny, "",
+              "threads and clips, each between two places of organs; at most 64"),
         plain("", "cut", Kind::tables, kAny, "", "the scripted cuts; they cut every organ that they meet"),
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
@@ -109,6 +115,8 @@ std::vector<SceneKey> generalKeys() {
               "closed surface: OBJ, PLY, OFF, STL, VTK or TetGen (docs/import.md); the path is relative to "
               "the scene file"),
         word("organ", "length_unit", unitNames(Dim::length), nullptr, "unit of the model's coordinates"),
+        quantity("organ", "at", Dim::length, kAny, "[\"0 mm\", \"0 mm\", \"0 mm\"]",
+                 "where the model's origin lies in the world", Kind::quantity3),
         word("organ", "up_axis", {"y", "x", "z", "-y", "-x", "-z"}, "\"y\"",
              "axis of the model that points up; the model is turned, and deformed surfaces turned back"),
         plain("organ", "repair", Kind::boolean, kAny, "false",
@@ -119,6 +127,8 @@ std::vector<SceneKey> generalKeys() {
         plain(
             "organ", "tear_strain", Kind::number, kPositive, "",
             "springs longer than (1 + this) times their rest length tear, frame by frame; not beside a pose"),
+        plain("organ", "self_contact", Kind::boolean, kAny, "false",
+              "parts of it that meet push each other; not beside a pose"),
         plain("organ", "tissue", Kind::table, kAny, "", "what it is made of"),
         plain("organ", "material", Kind::tables, kAny, "",
               "further materials, at most 15 (see Materials above); not beside a pose"),
@@ -272,6 +282,27 @@ std::vector<SceneKey> bodyKeys() {
     return keys;
 }
 
+std::vector<SceneKey> threadKeys() {
+    return {
+        plain("thread", "name", Kind::text, kAny, "", "what messages call it"),
+        word("thread", "kind", {"thread", "clip"}, "\"thread\"",
+             "thread: keeps its ends at most `length` apart; clip: exactly so"),
+        quantity("thread", "t", Dim::time, kNotNegative, "\"0 s\"", "tied then"),
+        quantity("thread", "length", Dim::length, kPositive, "",
+                 "between its ends; without it, as far as the two places lie apart at rest"),
+        quantity("thread", "tightening", Dim::time, kNotNegative, "\"0 s\"",
+                 "time in which it is drawn in to its length; by at most 0.05 spacings a step in any case"),
+        quantity("thread", "strength", Dim::force, kPositive, "",
+                 "force that it carries: above, it breaks; without it, it never does"),
+        plain("thread", "ends", Kind::tables, kAny, nullptr, "its two ends"),
+        plain("thread.ends", "organ", Kind::text, kAny, "",
+              "name of the organ that it is tied to; a scene of one organ needs none"),
+        quantity("thread.ends", "at", Dim::length, kAny, nullptr,
+                 "place in the world, as the organ rests: in it, or at most a spacing outside",
+                 Kind::quantity3),
+    };
+}
+
 std::vector<SceneKey> otherKeys() {
     return {
         word(
@@ -311,7 +342,7 @@ std::vector<SceneKey> otherKeys() {
              "what the surface is coloured by; material: by the material of the cell at each vertex"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
-        plain("look", "tools", Kind::boolean, kAny, "true", "draw the tools"),
+        plain("look", "tools", Kind::boolean, kAny, "true", "draw tools, bodies and threads"),
         quantity("look", "section_at", Dim::length, kAny, "",
                  "a point of a plane that shows the inside: the surface beyond it is not drawn",
                  Kind::quantity3),
@@ -344,6 +375,7 @@ std::vector<SceneKey> makeKeys() {
     add(keys, organKeys());
     add(keys, toolKeys());
     add(keys, bodyKeys());
+    add(keys, threadKeys());
     add(keys, otherKeys());
     return keys;
 }
@@ -358,10 +390,13 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region", "organ.fixed",
-                                         "organ.level", "tool",           "body",         "cut"};
+    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region",
+                                         "organ.fixed", "organ.level",    "tool",
+                                         "body",        "thread",         "cut"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
+    if (table == "thread.ends")
+        return "`ends` of `[[thread]]`, each `{ organ = ..., at = ... }`";
     if (table == "cut.keys")
         return "`keys` of `[[cut]]`, each `{ t = ..., at = ..., end = ... }`";
     if (table == "curve")
@@ -482,6 +517,7 @@ static_assert(SRS_MAX_COLLIDERS == 12, "the meaning of [[body]] names the limit"
 static_assert(SRS_MAX_MATERIALS == 16, "the meaning of [[organ.material]] names the limit");
 static_assert(SRS_CURVE_BREAKS == 8 && SRS_LIMIT_STIFFENING == 10.0,
               "the meanings of curve and strain_limit name the limits");
+static_assert(SRS_MAX_THREADS == 64 && SRS_THREAD_PULL == 0.05, "the meanings of [[thread]] name the limits");
 static_assert(kMostOrgans == 8, "the meaning of [[organ]] names the limit");
 
 } // namespace serosa::sim

@@ -1,6 +1,7 @@
 // From a TOML file to a Scene. Every table is read in the order of sim/scene_keys.cpp; rules between keys
 // follow each table.
 
+#include "sim/scene_reader_coupling.h"
 #include "sim/scene_reader_organ.h"
 #include "sim/scene_reader_tools.h"
 #include "sim/scene_table.h"
@@ -159,6 +160,7 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     SEROSA_TRY(top.read("frame_rate", scene.frameRate));
     SEROSA_TRY(top.read("duration", scene.duration));
     SEROSA_TRY(top.read("gravity", scene.gravity));
+    SEROSA_TRY(readOrganContact(top, scene));
 
     SEROSA_ASSIGN(const auto organs, top.tables("organ"));
     if (organs.empty() || organs.size() > kMostOrgans)
@@ -181,6 +183,8 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     }
 
     SEROSA_TRY(readToolsAndBodies(source, top, folder, scene));
+    SEROSA_TRY(readThreads(source, top, scene));
+    SEROSA_TRY(checkCoupling(source, top, organs, scene));
     SEROSA_ASSIGN(const auto cuts, top.tables("cut"));
     for (std::size_t i = 0; i < cuts.size(); ++i) {
         Cut cut;

@@ -63,6 +63,7 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     SEROSA_TRY(table.checkKeys());
     SEROSA_TRY(table.read("name", organ.name));
     SEROSA_TRY(readModel(table, folder, organ));
+    SEROSA_TRY(table.read("at", organ.at));
     SEROSA_TRY(table.readWord("up_axis", organ.upAxis));
     SEROSA_TRY(table.read("repair", organ.repair));
     if (table.has("nodes") && table.has("spacing"))
@@ -75,7 +76,9 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     std::optional<double> tearStrain;
     SEROSA_TRY(table.read("tear_strain", tearStrain));
     organ.tearStrain = tearStrain.value_or(0);
-    for (const char* key : {"tear_strain", "material", "region"})
+    SEROSA_TRY(table.read("self_contact", organ.selfContact));
+    organ.selfContactLine = table.lineOf("self_contact");
+    for (const char* key : {"tear_strain", "self_contact", "material", "region"})
         if (table.has(key) && table.has("pose"))
             return table.errorAt(key, "has no effect beside 'pose': keep one of the two");
     SEROSA_TRY(readTissue(source, table, path, organ.tissue));

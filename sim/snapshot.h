@@ -11,6 +11,7 @@
 #include "sim/lattice_state.h"
 #include "sim/setup_traits.h"
 #include "sim/solver.h"
+#include "sim/thread_hold.h"
 
 #include <glm/glm.hpp>
 
@@ -41,6 +42,7 @@ struct Snapshot {
     std::int64_t frame = 0; // frames of the scene so far
     double frameRate = 0;   // Hz
     std::vector<OrganSnapshot> organs;
+    std::vector<ThreadState> threads; // of the scene's threads
 
     double time() const { return double(frame) / frameRate; } // s
 };

@@ -17,11 +17,12 @@ namespace {
 
 // As PNG's: not text, and damaged by whatever changes line ends.
 constexpr std::string_view kMagic("\x89SRS\r\n\x1a\n", 8);
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderBytes = 20;   // magic, version, length of the file
 constexpr std::size_t kChecksumBytes = 16; // of all bytes before it
 constexpr std::size_t kStrokeBytes = 8 + 1 + 1 + 14 * 8;
 constexpr std::size_t kLeastOrganBytes = 58;
+constexpr std::size_t kThreadBytes = 6 * 8 + 1;
 
 bool isFloat32(double value) {
     return std::bit_cast<std::uint64_t>(double(float(value))) == std::bit_cast<std::uint64_t>(value);
@@ -177,6 +178,23 @@ bool readOrgan(ByteReader& in, OrganSnapshot& organ) {
     return true;
 }
 
+void writeThread(ByteWriter& out, const ThreadState& thread) {
+    for (const double value : {thread.startLength, thread.force, thread.mostForce, thread.brokenAfter,
+                               thread.impulse, thread.work})
+        out.f64(value);
+    out.u8(thread.broken ? 1 : 0);
+}
+
+/// False: a value that no writer writes.
+bool readThread(ByteReader& in, ThreadState& thread) {
+    for (double* value : {&thread.startLength, &thread.force, &thread.mostForce, &thread.brokenAfter,
+                          &thread.impulse, &thread.work})
+        *value = in.f64();
+    const std::uint8_t broken = in.u8();
+    thread.broken = broken == 1;
+    return broken <= 1;
+}
+
 /// False: it makes no sense, at in.at() or just before.
 bool readBody(ByteReader& in, Snapshot& snapshot) {
     snapshot.program = in.text();
@@ -188,6 +206,10 @@ bool readBody(ByteReader& in, Snapshot& snapshot) {
     snapshot.organs.resize(in.count(in.u32(), kLeastOrganBytes));
     for (OrganSnapshot& organ : snapshot.organs)
         if (!readOrgan(in, organ))
+            return false;
+    snapshot.threads.resize(in.count(in.u32(), kThreadBytes));
+    for (ThreadState& thread : snapshot.threads)
+        if (!readThread(in, thread))
             return false;
     return !in.failed() && in.left() == 0;
 }
@@ -203,6 +225,9 @@ std::string snapshotBytes(const Snapshot& snapshot) {
     body.u32(std::uint32_t(snapshot.organs.size()));
     for (const OrganSnapshot& organ : snapshot.organs)
         writeOrgan(body, organ);
+    body.u32(std::uint32_t(snapshot.threads.size()));
+    for (const ThreadState& thread : snapshot.threads)
+        writeThread(body, thread);
 
     ByteWriter file;
     file.raw(kMagic);

@@ -12,6 +12,7 @@ namespace serosa::sim {
 struct ThreadEnd {
     std::string organ; // name
     glm::dvec3 at{0};  // m, world, at rest
+    int line = 0;      // of the scene file, for messages
 };
 
 /// From `time` on the ends are at most `length` apart (a clip: exactly), until that takes more than

@@ -159,8 +159,10 @@ void ThreadHold::solve(std::int64_t step, CoupledMotion& motion, std::vector<Thr
         state.impulse += force * timeStep_;
         state.work += std::max(0.0, force * (lengthAt(i, start) - lengthAt(i, end)));
         state.force += (std::abs(force) - state.force) * threadMeanShare(timeStep_);
+        state.mostForce = std::max(state.mostForce, state.force);
         if (state.force > spans_[i].thread.strength) {
             state.broken = true;
+            state.brokenAfter = end - spans_[i].thread.time;
             state.force = 0;
         }
     }

@@ -47,7 +47,9 @@ struct TiedThread {
 struct ThreadState {
     double startLength = -1; // m, when it was tied; negative before that
     double force = 0;        // N, averaged
+    double mostForce = 0;    // N: the largest of these so far
     bool broken = false;
+    double brokenAfter = 0; // s after it was tied, where it is broken
     // Since they were last taken:
     double impulse = 0; // N s
     double work = 0;    // J, by drawing in

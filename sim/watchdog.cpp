@@ -161,6 +161,10 @@ void Watchdog::addWork(double from, double to, const std::vector<ToolLoad>& load
     }
 }
 
+double Watchdog::available(const LatticeState& state) const {
+    return std::max(0.0, budget_ - energies(setup_, state).gravitational);
+}
+
 std::optional<Alarm> Watchdog::check(const LatticeState& state) {
     SEROSA_CHECK(state.positions.size() == setup_.lattice->nodeCount(), "a state of this lattice");
     if (const std::optional<Alarm> alarm = checkFinite(state))

@@ -55,6 +55,10 @@ public:
     void start(const LatticeState& state);
     /// What the colliders gave between two times in s. \param loads one a collider, as Solver::takeLoads
     void addWork(double from, double to, const std::vector<ToolLoad>& loads);
+    /// J: kinetic and elastic energy that the state may have, by all that is known to have come in.
+    double available(const LatticeState& state) const;
+    /// What may have come in from elsewhere: from organs that are coupled with it (app/group_guard.h).
+    void addEnergy(double joules) { budget_ += joules; }
     /// What is wrong with the state, if anything. A state without alarm becomes what the next is compared
     /// with.
     std::optional<Alarm> check(const LatticeState& state);

@@ -1,6 +1,6 @@
 // Group `contact`: what touches an organ does to it what mechanics says. A ball falls on a floor as the
 // reference has it, a block slides down a slope from tan(angle) = mu on (Coulomb); the parts of it in other
-// files: impulses against momenta, and probes that must not pass a thin sheet.
+// files: impulses against momenta, probes that must not pass a thin sheet, organs that touch each other.
 #include "app/organ_setup.h"
 #include "app/solver_choice.h"
 #include "app/verify/contact_pieces.h"
@@ -131,6 +131,7 @@ Status verifyContact(const VerifyOptions& options, CheckList& checks) {
     SEROSA_TRY(droppedBall(options, checks));
     SEROSA_TRY(slopes(options, checks));
     SEROSA_TRY(verifyContactImpulses(options, checks));
+    SEROSA_TRY(verifyOrganContact(options, checks));
     return verifyProbes(options, checks);
 }
 

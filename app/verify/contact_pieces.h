@@ -42,5 +42,8 @@ std::vector<std::string> comparedSolvers(const VerifyOptions& options);
 Status verifyContactImpulses(const VerifyOptions& options,
                              CheckList& checks);                      // app/verify/contact_impulses.cpp
 Status verifyProbes(const VerifyOptions& options, CheckList& checks); // app/verify/contact_probes.cpp
+Status verifyOrganContact(const VerifyOptions& options,
+                          CheckList& checks);                          // app/verify/contact_organs.cpp
+Status verifyThreads(const VerifyOptions& options, CheckList& checks); // app/verify/grasp_threads.cpp
 
 } // namespace serosa::app

@@ -205,7 +205,7 @@ Status verifyGrasp(const VerifyOptions& options, CheckList& checks) {
         SEROSA_TRY(twoGrasps(options, name, checks));
         SEROSA_TRY(holdsPose(options, name, checks));
     }
-    return {};
+    return verifyThreads(options, checks);
 }
 
 } // namespace serosa::app

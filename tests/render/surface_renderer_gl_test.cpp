@@ -274,6 +274,30 @@ TEST_F(GlTwoOrgans, TheNearerHidesTheOther) {
     EXPECT_LT(share(both, drawBoth(aside, true), 2), 1e-6);
 }
 
+// A rod with round ends from the middle of one ball to that of a twin, and half of the way within each.
+TEST_F(GlTwoOrgans, AThreadIsDrawnBetweenThem) {
+    view_.look.surface = false;
+    const glm::dvec3 by(0.25 * kHeight, 0.3 * kHeight, 0.1 * kHeight);
+    const Image bare = drawBoth(by, false);
+    DrawnThread thread;
+    thread.radius = 0.02 * kHeight;
+    thread.ends[1].organ = 1;
+    const auto middle = std::uint32_t(lattice_.nodeAt(glm::ivec3(6)));
+    for (DrawnThread::End& end : thread.ends) {
+        end.nodes.fill(middle);
+        end.weights = {0.25, 0.75, 0, 0, 0, 0, 0, 0};
+    }
+    view_.threads = {thread};
+    const double length = std::hypot(by.x, by.y), r = thread.radius;
+    const double expected = (std::numbers::pi * r * r + 2 * r * length) / (kHeight * kHeight);
+    const Image drawn = drawBoth(by, false);
+    EXPECT_NEAR(share(drawn, bare, 8), expected, 0.08 * expected);
+    const glm::ivec3 colour = pixel(drawn, kSize / 2 + kSize / 8, kSize / 2 - int(0.15 * kSize));
+    EXPECT_GT(colour.z, colour.x + 20) << "blue";
+    view_.look.tools = false;
+    EXPECT_EQ(share(drawBoth(by, false), bare, 0), 0) << "hidden with the tools";
+}
+
 TEST_F(GlSurfaceRenderer, SurfaceFilesAreInMeshOrderAndMetres) {
     for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
         const std::vector<glm::dvec3> positions = renderer_->readDeformedPositions(*state_, mapping);

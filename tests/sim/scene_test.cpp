@@ -105,7 +105,8 @@ TEST_F(SceneTest, DefaultsOfTheReferenceAreTheOnesInForce) {
     std::string text, organ, later;
     for (const SceneKey& key : sceneKeys()) {
         const std::string table = key.table;
-        if (key.required() || *key.fallback == '\0' || table == "tool" || table == "body" || table == "cut")
+        if (key.required() || *key.fallback == '\0' || table == "tool" || table == "body" ||
+            table == "thread" || table == "cut")
             continue;
         const std::string line = std::string(key.name) + " = " + key.fallback + "\n";
         if (table.empty())

@@ -37,6 +37,7 @@ Snapshot smallSnapshot(const Lattice& lattice) {
         snapshot.organs.push_back(organ);
         solver->advance(3);
     }
+    snapshot.threads = {{0.005, 1.5, 2.5, false, 0, 0.25, 0.125}, {-1, 0, 0, true, 0.75, 0, 0}};
     return snapshot;
 }
 
@@ -45,6 +46,15 @@ void expectEqual(const Snapshot& a, const Snapshot& b) {
     EXPECT_EQ(a.machine, b.machine);
     EXPECT_EQ(a.frame, b.frame);
     EXPECT_EQ(a.frameRate, b.frameRate);
+    ASSERT_EQ(a.threads.size(), b.threads.size());
+    for (std::size_t i = 0; i < a.threads.size(); ++i) {
+        const sim::ThreadState &x = a.threads[i], &y = b.threads[i];
+        EXPECT_EQ(x.broken, y.broken);
+        for (const double sim::ThreadState::*value :
+             {&sim::ThreadState::startLength, &sim::ThreadState::force, &sim::ThreadState::mostForce,
+              &sim::ThreadState::brokenAfter, &sim::ThreadState::impulse, &sim::ThreadState::work})
+            EXPECT_EQ(x.*value, y.*value);
+    }
     ASSERT_EQ(a.organs.size(), b.organs.size());
     for (std::size_t i = 0; i < a.organs.size(); ++i) {
         const OrganSnapshot &x = a.organs[i], &y = b.organs[i];
@@ -134,15 +144,16 @@ TEST(Snapshot, fileIsAsTheDocumentSays) {
     snapshot.frameRate = 60;
     std::string bytes = sim::snapshotBytes(snapshot);
     const char expected[] = "\x89SRS\r\n\x1a\n"
-                            "\x02\0\0\0"
-                            "\x44\0\0\0\0\0\0\0"
+                            "\x03\0\0\0"
+                            "\x48\0\0\0\0\0\0\0"
                             "\x03\0\0\0"
                             "0.1"
                             "\x01\0\0\0m"
                             "\x02\x01\0\0\0\0\0\0"
                             "\0\0\0\0\0\0\x4e\x40"
+                            "\0\0\0\0"
                             "\0\0\0\0";
-    EXPECT_EQ(bytes.size(), 0x44u);
+    EXPECT_EQ(bytes.size(), 0x48u);
     EXPECT_EQ(bytes.substr(0, bytes.size() - 16), std::string(expected, sizeof expected - 1));
 }
 
@@ -227,7 +238,7 @@ TEST(Snapshot, valuesBehindAFittingChecksumAreNotBelieved) {
 TEST(Snapshot, otherFormatIsNamed) {
     std::string bytes = sim::snapshotBytes(smallSnapshot(test::blockLattice(2, 2, 2)));
     bytes[8] = 1;
-    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 2"),
+    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 3"),
               std::string::npos);
     EXPECT_NE(refused(bytes).find("is damaged"), std::string::npos) << "a flipped bit is no other version";
     EXPECT_NE(refused("ply\nformat ascii 1.0\n").find("is not a snapshot"), std::string::npos);
