@@ -80,6 +80,7 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     parts.setup.gravity = scene.gravity;
     parts.setup.tools = scene.tools;
     parts.setup.bodies = scene.bodies;
+    parts.setup.method = organ.method;
     SEROSA_ASSIGN(parts.setup.fixed, fixedNodes(organ, parts.lattice, parts.surface.metres, scene.file));
     if (organ.pose) {
         SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));
@@ -90,9 +91,13 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     return {};
 }
 
-/// Where something is simulated and the solvers have room for them.
+/// Where something is simulated and the solvers have room for them. Hands push, and slip, which implicit
+/// steps do not know yet.
 void addHands(RunParts& parts) {
     sim::Scene& scene = parts.scene;
+    if (std::any_of(scene.organs.begin(), scene.organs.end(),
+                    [](const sim::Organ& organ) { return organ.method == sim::StepMethod::implicit; }))
+        return;
     double spacing = 0, young = 0;
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         if (!scene.organs[i].pose) {
@@ -159,6 +164,7 @@ glm::dvec3 RunParts::highest() const {
 
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext) {
     SEROSA_TRY(readSceneAndSurfaces(options, parts));
+    SEROSA_TRY(checkMethods(parts.scene));
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(prepareOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i]));
     if (options.hands)

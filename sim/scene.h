@@ -8,6 +8,7 @@
 #include "sim/cut_motion.h"
 #include "sim/material.h"
 #include "sim/region.h"
+#include "sim/solver.h"
 #include "sim/thread.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
@@ -51,6 +52,8 @@ struct Organ {
         0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
+    StepMethod method = StepMethod::explicitSteps;
+    int methodLine = 0; // of the scene file, for messages; 0: none
     // Level of detail (sim/lod.h): level 1 is the lattice above, each further one has twice its spacing.
     int levels = 1;                      // at most kMostLevels
     std::vector<LevelKey> levelKeys;     // rising times
