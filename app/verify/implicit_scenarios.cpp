@@ -116,7 +116,7 @@ Result<std::vector<Outcome>> playSeeds(const VerifyOptions& options, std::uint32
 
 Status verifyImplicitScenarios(const VerifyOptions& options, CheckList& checks) {
     const std::uint32_t count = options.full ? 200 : 20;
-    const int frames = options.full ? 600 : 60;
+    const int frames = options.full ? 120 : 60;
     SEROSA_ASSIGN(const std::vector<Outcome> results, playSeeds(options, count, frames));
     double notFinite = 0, alarms = 0, share = 0, held = 0, onGpu = 0;
     std::size_t cut = 0;
