@@ -60,8 +60,8 @@ Status benchLod(const Options& options, Report& report);
 /// Simulated seconds a second with one implicit step a frame, and with explicit ones
 /// (bench/implicit_cases.cpp).
 Status benchImplicit(const Options& options, Report& report);
-/// A part of it: what else could solve such a step (bench/implicit_rivals.cpp).
-Status benchImplicitRivals(Report& report);
+/// What else could solve such a step: projective dynamics, XPBD (bench/implicit_rivals.cpp).
+Status benchRivals(const Options& options, Report& report);
 /// Simulated seconds a second, and how many nodes keep up with time (bench/realtime_cases.cpp).
 Status benchRealtime(const Options& options, Report& report);
 /// Microseconds a step from 20,000 to 8 million nodes beside the copy bandwidth (bench/gpu_cases.cpp).

@@ -56,6 +56,7 @@ public:
         }
         system_.begin(std::move(step));
         const Vectors still(count, Vector(0));
+        load = still;
         system_.gradient(still, load);
         system_.linearize(still);
         for (std::size_t i = 0; i < count; ++i)
@@ -280,7 +281,7 @@ std::string positionBased(Step& step) {
 
 } // namespace
 
-Status benchImplicitRivals(Report& report) {
+Status benchRivals(const Options& /*options*/, Report& report) {
     std::vector<std::pair<std::string, std::unique_ptr<app::ImplicitBody>>> bodies;
     for (const auto& [name, young] : {std::pair{"ball, 1 kPa", 1e3},
                                       {"ball, 20 kPa", 2e4},
