@@ -127,8 +127,7 @@ Status benchImplicit(const Options& options, Report& report) {
     }
     report.table(columns, table);
     report.line("\nSimulated seconds a second of steps alone. Implicit: the first " +
-                std::to_string(kFrames) +
-                " frames from rest, in which the ball falls and swings; at rest a step takes one round.");
+                std::to_string(kFrames) + " frames from rest, in which the ball falls and swings.");
     return {};
 }
 
