@@ -7,6 +7,7 @@
 #include "sim/mesh_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 
@@ -100,13 +101,27 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
 
 Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
                                   const std::filesystem::path& scene) {
-    const sim::StableStep step = sim::stableStep(lattice, organ.tissue, frameTime);
+    sim::StableStep step = sim::stableStep(lattice, organ.tissue, frameTime);
+    if (organ.method == sim::StepMethod::implicit) {
+        step.stepsPerFrame = 1;
+        step.timeStep = frameTime;
+        return step;
+    }
     if (step.stepsPerFrame > kMostStepsAFrame)
         return Error{scenePosition(scene, organ.modelLine) +
                      "the tissue is so stiff or damped on so fine a lattice that a frame would take " +
-                     shortNumber(frameTime / (step.margin * step.bound)) +
-                     " steps (at most 100,000): lower young or damping_time, or raise spacing"};
+                     shortNumber(explicitSteps(step, frameTime)) +
+                     " steps (at most 100,000): set method = \"implicit\", lower young or damping_time, or "
+                     "raise spacing"};
     return step;
+}
+
+double explicitSteps(const sim::StableStep& step, double frameTime) {
+    return frameTime / (step.margin * step.bound);
+}
+
+const char* methodName(sim::StepMethod method) {
+    return method == sim::StepMethod::implicit ? "implicit" : "explicit";
 }
 
 void printRepair(const sim::RepairReport& repair, std::ostream& out) {

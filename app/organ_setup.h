@@ -45,9 +45,15 @@ Result<std::vector<bool>> fixedNodes(const sim::Organ& organ, const sim::Lattice
 Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMesh& metres,
                                   const std::filesystem::path& scene);
 
-/// The stable step, refused where a frame would take more than 100,000 steps.
+/// The step of the organ's method. Explicit: the stable one, refused where a frame would take more than
+/// 100,000. Implicit: the frame's own; what else is known of explicit steps stands beside it.
 Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
                                   const std::filesystem::path& scene);
+
+/// "explicit" or "implicit"
+const char* methodName(sim::StepMethod method);
+/// How many explicit steps a frame of `frameTime` seconds would take, by the bound and its margin.
+double explicitSteps(const sim::StableStep& step, double frameTime);
 
 /// A line for each kind of fault that was mended, or that there was none.
 void printRepair(const sim::RepairReport& repair, std::ostream& out);

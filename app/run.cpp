@@ -358,7 +358,12 @@ void describeOrgan(const sim::Organ& organ, const OrganParts& parts, const Organ
             out << "material " << line.name << ": " << line.text << "\n";
     for (std::string& note : materialNotes(organ, parts.lattice))
         notes.push_back(std::move(note));
-    if (parts.solver)
+    const sim::StableStep& step = parts.step;
+    if (parts.solver && organ.method == sim::StepMethod::implicit)
+        out << "step: implicit, one a frame of " << shortNumber(1e3 * step.timeStep)
+            << " ms (explicit ones would be " << shortNumber(explicitSteps(step, step.timeStep))
+            << " a frame)\n";
+    else if (parts.solver)
         out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "
             << shortNumber(1e3 * parts.step.bound) << " ms; computed, with a margin of "

@@ -107,8 +107,10 @@ void writeFigures(Markup& page, const Json& summary) {
         {"Surface", grouped(faces) + " faces", summary.at("mapping").get<std::string>() + " mapping"});
     if (stepped)
         figures.push_back({"Time step", siText(figureOf(*stepped, "time_step_s"), "s"),
-                           std::to_string(mostSteps) + (mostSteps == 1 ? " step" : " steps") +
-                               " a frame, stable below " + siText(figureOf(*stepped, "bound_s"), "s")});
+                           std::to_string(mostSteps) + (mostSteps == 1 ? " step" : " steps") + " a frame, " +
+                               (stepped->value("method", "explicit") == "implicit"
+                                    ? "implicit"
+                                    : "stable below " + siText(figureOf(*stepped, "bound_s"), "s"))});
     writeKeyFigures(page, figures);
 }
 

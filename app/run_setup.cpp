@@ -80,6 +80,7 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     parts.setup.gravity = scene.gravity;
     parts.setup.tools = scene.tools;
     parts.setup.bodies = scene.bodies;
+    parts.setup.method = organ.method;
     SEROSA_ASSIGN(parts.setup.fixed, fixedNodes(organ, parts.lattice, parts.surface.metres, scene.file));
     if (organ.pose) {
         SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));

@@ -134,9 +134,10 @@ PropertyTable latticeTable(const std::vector<Json>& organs) {
 PropertyTable stepTable(const std::vector<Json>& organs) {
     PropertyTable table{"Time step", {}, {}};
     Rows(table, organs, "step")
+        .add("method", "Method", word())
         .add("time_step_s", "Step", quantity("s"))
         .add("steps_per_frame", "Steps a frame", count())
-        .add("bound_s", "Stable below", quantity("s"))
+        .add("bound_s", "Explicit steps are stable below", quantity("s"))
         .add("margin", "Share of the bound that may be used", plain("%", 100))
         .add("stiffest_rate2_1_s2", "Stiffest mode, \u03C9\u00B2", plain("1/s\u00B2"))
         .add("formula_rate2_1_s2", "Formula 12 k/m", plain("1/s\u00B2"));

@@ -97,10 +97,16 @@ void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream&
         return;
     line("spring constant k = 0.4 E h", shortNumber(organ.tissue.springConstant(lattice.spacing)) + " N/m");
     line("mass of a full node", shortNumber(organ.tissue.nodeMass(lattice.spacing)) + " kg");
-    line("stable step",
-         shortNumber(derived.step.bound) + " s, used with a margin of " + shortNumber(derived.step.margin));
-    line("time step", shortNumber(derived.step.timeStep) + " s, " +
-                          std::to_string(derived.step.stepsPerFrame) + " steps a frame");
+    const sim::StableStep& step = derived.step;
+    if (organ.method == sim::StepMethod::implicit) {
+        line("explicit steps", shortNumber(explicitSteps(step, step.timeStep)) + " a frame, stable below " +
+                                   shortNumber(step.bound) + " s; not taken");
+        line("time step", shortNumber(step.timeStep) + " s, one implicit step a frame");
+        return;
+    }
+    line("stable step", shortNumber(step.bound) + " s, used with a margin of " + shortNumber(step.margin));
+    line("time step",
+         shortNumber(step.timeStep) + " s, " + std::to_string(step.stepsPerFrame) + " steps a frame");
 }
 
 } // namespace
@@ -109,12 +115,14 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(file));
     SEROSA_ASSIGN(const std::vector<Derived> organs, deriveAll(scene));
     std::size_t faces = 0, nodes = 0;
-    int steps = 0;
+    int steps = 0, implicit = 0;
     for (const Derived& organ : organs) {
         faces += organ.surface.file.faces.size();
         nodes += organ.lattice.nodeCount();
         steps += organ.step.stepsPerFrame;
     }
+    for (const sim::Organ& organ : scene.organs)
+        implicit += organ.method == sim::StepMethod::implicit;
     out << file.string() << ": ok: " << scene.frames() << " frames, ";
     if (organs.size() > 1)
         out << organs.size() << " organs, ";
@@ -125,6 +133,8 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
         out << ", " << scene.threads.size() << (scene.threads.size() == 1 ? " thread" : " threads");
     if (steps > 0)
         out << ", " << steps << " steps a frame";
+    if (implicit > 0)
+        out << " (" << implicit << " implicit)";
     out << "\n";
     for (std::size_t i = 0; i < organs.size(); ++i) {
         printRepair(organs[i].surface, out);

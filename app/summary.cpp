@@ -4,6 +4,7 @@
 
 #include "app/coupling_json.h"
 #include "app/material_lines.h"
+#include "app/organ_setup.h"
 #include "app/version.h"
 #include "shaders/shared_constants.h"
 #include "sim/assign_materials.h"
@@ -106,16 +107,20 @@ Json latticeJson(const OrganRecord& record) {
             {"texture_size", {record.layout->width, record.layout->height}}};
 }
 
-Json stepJson(const sim::StableStep& step) {
-    return {{"time_step_s", step.timeStep},
-            {"steps_per_frame", step.stepsPerFrame},
-            {"bound_s", step.bound},
-            {"margin", step.margin},
-            {"stiffest_rate2_1_s2", step.stiffestRate2},
-            {"formula_rate2_1_s2", step.formulaRate2},
-            {"how",
-             "Lanczos iteration on the rest lattice, never below 12 k/m; explicit step below the bound, "
-             "damping included"}};
+Json stepJson(const sim::StableStep& step, sim::StepMethod method) {
+    const bool implicit = method == sim::StepMethod::implicit;
+    return {
+        {"method", methodName(method)},
+        {"time_step_s", step.timeStep},
+        {"steps_per_frame", step.stepsPerFrame},
+        {"bound_s", step.bound},
+        {"margin", step.margin},
+        {"stiffest_rate2_1_s2", step.stiffestRate2},
+        {"formula_rate2_1_s2", step.formulaRate2},
+        {"how",
+         std::string("Lanczos iteration on the rest lattice, never below 12 k/m; ") +
+             (implicit ? "bound and margin are those of explicit steps; one implicit step a frame is taken"
+                       : "explicit step below the bound, damping included")}};
 }
 
 Json bindingJson(const render::SurfaceBinding& binding) {
@@ -152,7 +157,7 @@ Json organsJson(const RunRecord& record) {
         Json json = organJson(record.scene.organs[i], organ);
         json["solver"] = organ.solver;
         json["lattice"] = latticeJson(organ);
-        json["step"] = stepJson(organ.step);
+        json["step"] = stepJson(organ.step, record.scene.organs[i].method);
         json["binding"] = bindingJson(*organ.binding);
         if (organ.strokes > 0)
             json["cuts"] = cutsJson(organ);
@@ -301,7 +306,7 @@ nlohmann::ordered_json summaryJson(const RunRecord& record) {
     if (single) {
         json["organ"] = organJson(scene.organs.front(), record.organs.front());
         json["lattice"] = latticeJson(record.organs.front());
-        json["step"] = stepJson(record.organs.front().step);
+        json["step"] = stepJson(record.organs.front().step, scene.organs.front().method);
     } else {
         json["organs"] = organsJson(record);
     }

@@ -53,6 +53,9 @@ public:
         for (const auto& organ : parts.organs) {
             readings_.nodes += organ->lattice.nodeCount();
             readings_.vertices += organ->surface.metres.positions.size();
+            const std::string method = organ->solver ? methodName(organ->setup.method) : "";
+            if (!method.empty())
+                readings_.method = readings_.method.empty() || readings_.method == method ? method : "both";
         }
         const std::string& renderer = parts.context->info().renderer;
         readings_.renderer = renderer.substr(0, renderer.find_first_of("(/")); // less of its version
@@ -324,6 +327,9 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
     for (const std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
         out << "note: " << note << std::endl;
     out << "view: " << parts.scene.organs.front().name << ", " << parts.context->info().renderer << std::endl;
+    for (std::size_t i = 0; i < parts.organs.size(); ++i)
+        if (parts.scene.organs[i].method == sim::StepMethod::implicit)
+            out << "step: " << parts.scene.organs[i].name << " takes one implicit step a frame" << std::endl;
     return view.loop(interrupt);
 }
 

@@ -30,7 +30,7 @@ std::string ViewHand::follow(ViewControls& controls, const render::CameraView& c
                              const glm::dvec2& window, double now) {
     if (!parts_.hands)
         return std::exchange(wanted_, controls.hand) != controls.hand && controls.hand
-                   ? "no room for a hand: the scene has as many tools as there can be"
+                   ? "no hands here: the scene has as many tools as there can be"
                    : "";
     const Ray ray = rayThrough(camera, controls.pointer, window);
     std::string said;

@@ -46,6 +46,8 @@ void drawReadings(const ViewReadings& readings) {
     if (readings.stepsPerFrame > 0) {
         reading("step", "%.3f ms", readings.stepMs);
         reading("steps a frame", "%.0f", readings.stepsPerFrame);
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", readings.method.c_str());
     }
     reading("drawing", "%.2f ms", readings.drawMs);
     reading("frame, whole", "%.2f ms", readings.stepsMs + readings.drawMs);

@@ -13,6 +13,7 @@ struct ViewReadings {
     std::string scene, renderer; // names
     std::size_t nodes = 0, vertices = 0;
     int frame = 0, stepsPerFrame = 0;
+    std::string method;               // of the organs' steps: "explicit", "implicit", "both"; "" of poses
     double time = 0;                  // s, simulated
     double stepMs = 0;                // one step
     double stepsMs = 0;               // all steps of a frame

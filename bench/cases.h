@@ -59,6 +59,11 @@ Status benchContact(const Options& options, Report& report);
 Status benchCoupling(const Options& options, Report& report);
 /// A step at h, 2h, 4h, a switch between them, and the tree of boxes beside a step (bench/lod_cases.cpp).
 Status benchLod(const Options& options, Report& report);
+/// Simulated seconds a second with one implicit step a frame, and with explicit ones
+/// (bench/implicit_cases.cpp).
+Status benchImplicit(const Options& options, Report& report);
+/// What else could solve such a step: projective dynamics, XPBD (bench/implicit_rivals.cpp).
+Status benchRivals(const Options& options, Report& report);
 /// Simulated seconds a second, and how many nodes keep up with time (bench/realtime_cases.cpp).
 Status benchRealtime(const Options& options, Report& report);
 /// Microseconds a step from 20,000 to 8 million nodes beside the copy bandwidth (bench/gpu_cases.cpp).

@@ -19,7 +19,8 @@ constexpr Group kGroups[] = {
     {"solver", benchSolver},   {"cpu", benchCpu},         {"compute", benchCompute},
     {"tissue", benchTissue},   {"contact", benchContact}, {"realtime", benchRealtime},
     {"mapping", benchMapping}, {"lod", benchLod},         {"growth", benchGrowth},
-    {"gpu", benchGpu},         {"large", benchLarge}};
+    {"gpu", benchGpu},         {"large", benchLarge},     {"implicit", benchImplicit},
+    {"rivals", benchRivals}};
 
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {

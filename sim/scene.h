@@ -8,6 +8,7 @@
 #include "sim/cut_motion.h"
 #include "sim/material.h"
 #include "sim/region.h"
+#include "sim/solver.h"
 #include "sim/thread.h"
 #include "sim/tool.h"
 #include "sim/triangle_mesh.h"
@@ -54,6 +55,8 @@ struct Organ {
     std::optional<Pose> pose;
     bool selfContact = false; // its parts touch each other
     int selfContactLine = 0;  // of the scene file, for messages
+    StepMethod method = StepMethod::explicitSteps;
+    int methodLine = 0; // of the scene file, for messages; 0: none
     // Level of detail (sim/lod.h): level 1 is the lattice above, each further one has twice its spacing.
     int levels = 1;                      // at most kMostLevels
     std::vector<LevelKey> levelKeys;     // rising times

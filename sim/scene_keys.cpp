@@ -135,6 +135,9 @@ std::vector<SceneKey> generalKeys() {
         plain("organ", "region", Kind::tables, kAny, "", "cells of these materials; a later region wins"),
         plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
         plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
+        word("organ", "method", {"explicit", "implicit"}, "\"explicit\"",
+             "how it steps: as many steps a frame as are stable, or one a frame whatever the stiffness "
+             "(see Stiff organs above); not beside a pose"),
         plain(
             "organ", "levels", Kind::integer, {1, kMostLevels}, "1",
             "levels of detail: lattices of the spacing, twice and four times it, one of which is simulated; "

@@ -115,13 +115,22 @@ Status checkCoupling(const SceneSource& source, const SceneTable& top,
     if (scene.organFriction > 0 && !meets)
         return top.errorAt("organ_friction", "has no effect: no organ touches another or itself; set "
                                              "organs_touch = true, or self_contact = true of an organ");
-    for (std::size_t i = 0; i < organs.size(); ++i)
-        if (couplingOf(scene, i).any() && scene.organs[i].levels > 1)
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        const auto refuse = [&](const char* key, const std::string& why) {
             return SceneTable(source, "organ", "organ[" + std::to_string(i) + "]", organs[i])
-                .errorAt("levels",
-                         "stands beside contact between organs or a thread, which work on one lattice: "
-                         "remove it, or the coupling of line " +
-                             std::to_string(couplingOf(scene, i).line));
+                .errorAt(key, why + ": remove it, or the coupling of line " +
+                                  std::to_string(couplingOf(scene, i).line));
+        };
+        if (!couplingOf(scene, i).any())
+            continue;
+        if (scene.organs[i].levels > 1)
+            return refuse("levels",
+                          "stands beside contact between organs or a thread, which work on one lattice");
+        if (scene.organs[i].method == StepMethod::implicit)
+            return refuse(
+                "method",
+                "is \"implicit\" beside contact between organs or a thread, which take explicit steps");
+    }
     return {};
 }
 

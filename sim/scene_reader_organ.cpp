@@ -24,6 +24,15 @@ Status readModel(const SceneTable& table, const fs::path& folder, Organ& organ) 
     return {};
 }
 
+Status readMethod(const SceneTable& table, Organ& organ) {
+    SEROSA_TRY(table.readWord("method", organ.method));
+    organ.methodLine = table.lineOf("method");
+    if (organ.method == StepMethod::implicit && organ.levels > 1)
+        return table.errorAt("method", "is \"implicit\", which levels of detail do not know yet: keep one of "
+                                       "'levels' and 'method'");
+    return {};
+}
+
 Status readLevels(const SceneSource& source, const SceneTable& table, const std::string& path, Organ& organ) {
     SEROSA_TRY(table.read("levels", organ.levels));
     enum class Way { scripted, byRule } way = Way::scripted;
@@ -78,13 +87,14 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
     organ.tearStrain = tearStrain.value_or(0);
     SEROSA_TRY(table.read("self_contact", organ.selfContact));
     organ.selfContactLine = table.lineOf("self_contact");
-    for (const char* key : {"tear_strain", "self_contact", "material", "region"})
+    for (const char* key : {"tear_strain", "self_contact", "material", "region", "method"})
         if (table.has(key) && table.has("pose"))
             return table.errorAt(key, "has no effect beside 'pose': keep one of the two");
     SEROSA_TRY(readTissue(source, table, path, organ.tissue));
     SEROSA_TRY(readMaterialRegions(source, table, path, organ));
     SEROSA_TRY(readFixedRegions(source, table, path, organ));
     SEROSA_TRY(readLevels(source, table, path, organ));
+    SEROSA_TRY(readMethod(table, organ));
     SEROSA_ASSIGN(const toml::table* pose, table.table("pose"));
     if (pose) {
         const SceneTable poseTable(source, "organ.pose", path + ".pose", pose);

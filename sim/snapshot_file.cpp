@@ -17,7 +17,9 @@ namespace {
 
 // As PNG's: not text, and damaged by whatever changes line ends.
 constexpr std::string_view kMagic("\x89SRS\r\n\x1a\n", 8);
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 3, kOldestVersion = 2;
+// What a state has beside what every one has. Version 2 knew the first alone.
+constexpr std::uint8_t kHasConnections = 1, kHasEarlier = 2;
 constexpr std::size_t kHeaderBytes = 20;   // magic, version, length of the file
 constexpr std::size_t kChecksumBytes = 16; // of all bytes before it
 constexpr std::size_t kStrokeBytes = 8 + 1 + 1 + 14 * 8;
@@ -28,15 +30,22 @@ bool isFloat32(double value) {
     return std::bit_cast<std::uint64_t>(double(float(value))) == std::bit_cast<std::uint64_t>(value);
 }
 
-bool isFloat32(const std::vector<glm::dvec3>& vectors) {
-    return std::all_of(vectors.begin(), vectors.end(), [](const glm::dvec3& v) {
-        return isFloat32(v.x) && isFloat32(v.y) && isFloat32(v.z);
-    });
+template <int N>
+using Vectors = std::vector<glm::vec<N, double>>;
+
+template <int N>
+bool isFloat32(const std::vector<glm::vec<N, double>>& vectors) {
+    for (const glm::vec<N, double>& v : vectors)
+        for (int axis = 0; axis < N; ++axis)
+            if (!isFloat32(v[axis]))
+                return false;
+    return true;
 }
 
-void writeVectors(ByteWriter& out, const std::vector<glm::dvec3>& vectors, bool single) {
-    for (const glm::dvec3& v : vectors)
-        for (int axis = 0; axis < 3; ++axis)
+template <int N>
+void writeVectors(ByteWriter& out, const std::vector<glm::vec<N, double>>& vectors, bool single) {
+    for (const glm::vec<N, double>& v : vectors)
+        for (int axis = 0; axis < N; ++axis)
             single ? out.f32(float(v[axis])) : out.f64(v[axis]);
 }
 
@@ -49,18 +58,21 @@ void writeState(ByteWriter& out, const LatticeState& state) {
     const std::size_t nodes = state.positions.size();
     SEROSA_CHECK(state.increments.size() == nodes && state.normals.size() == nodes &&
                      state.heldBy.size() == nodes &&
-                     (state.connections.empty() || state.connections.size() == nodes),
+                     (state.connections.empty() || state.connections.size() == nodes) &&
+                     (state.earlier.empty() || state.earlier.size() == nodes),
                  "a value of each kind for every node");
-    const bool single = isFloat32(state.positions) && isFloat32(state.increments);
+    const bool single = isFloat32(state.positions) && isFloat32(state.increments) && isFloat32(state.earlier);
     out.u64(nodes);
     out.u8(single ? 4 : 8);
-    out.u8(state.connections.empty() ? 0 : 1);
+    out.u8(std::uint8_t((state.connections.empty() ? 0 : kHasConnections) |
+                        (state.earlier.empty() ? 0 : kHasEarlier)));
     out.i64(state.step);
     writeVectors(out, state.positions, single);
     writeVectors(out, state.increments, single);
     writeWords(out, state.normals);
     writeWords(out, state.heldBy);
     writeWords(out, state.connections);
+    writeVectors(out, state.earlier, single);
 }
 
 void writeOrgan(ByteWriter& out, const OrganSnapshot& organ) {
@@ -78,7 +90,7 @@ void writeOrgan(ByteWriter& out, const OrganSnapshot& organ) {
         out.u8(std::uint8_t(entry.stroke.kind));
         out.u8(entry.stroke.continues ? 1 : 0);
         for (const auto& ends : {entry.stroke.from, entry.stroke.to})
-            writeVectors(out, {ends[0], ends[1]}, false);
+            writeVectors(out, Vectors<3>{ends[0], ends[1]}, false);
         out.f64(entry.stroke.radius);
         out.f64(entry.stroke.strain);
     }
@@ -97,10 +109,11 @@ void writeOrgan(ByteWriter& out, const OrganSnapshot& organ) {
     out.text(organ.levelState);
 }
 
-std::vector<glm::dvec3> readVectors(ByteReader& in, std::size_t count, bool single) {
-    std::vector<glm::dvec3> vectors(count);
-    for (glm::dvec3& v : vectors)
-        for (int axis = 0; axis < 3; ++axis)
+template <int N>
+Vectors<N> readVectors(ByteReader& in, std::size_t count, bool single) {
+    Vectors<N> vectors(count);
+    for (glm::vec<N, double>& v : vectors)
+        for (int axis = 0; axis < N; ++axis)
             v[axis] = single ? double(in.f32()) : in.f64();
     return vectors;
 }
@@ -113,18 +126,20 @@ std::vector<std::uint32_t> readWords(ByteReader& in, std::size_t count) {
 }
 
 /// False: a value that no writer writes.
-bool readState(ByteReader& in, LatticeState& state) {
+bool readState(ByteReader& in, std::uint32_t version, LatticeState& state) {
     const std::uint64_t wanted = in.u64();
-    const std::uint8_t size = in.u8(), cut = in.u8();
-    if ((size != 4 && size != 8) || cut > 1)
+    const std::uint8_t size = in.u8(), has = in.u8();
+    if ((size != 4 && size != 8) || has > (version == 2 ? kHasConnections : kHasConnections + kHasEarlier))
         return false;
+    const bool cut = has & kHasConnections, earlier = has & kHasEarlier;
     state.step = in.i64();
-    const std::size_t nodes = in.count(wanted, 6 * std::size_t(size) + 8 + 4 * std::size_t(cut));
-    state.positions = readVectors(in, nodes, size == 4);
-    state.increments = readVectors(in, nodes, size == 4);
+    const std::size_t nodes = in.count(wanted, (earlier ? 10 : 6) * std::size_t(size) + (cut ? 12 : 8));
+    state.positions = readVectors<3>(in, nodes, size == 4);
+    state.increments = readVectors<3>(in, nodes, size == 4);
     state.normals = readWords(in, nodes);
     state.heldBy = readWords(in, nodes);
-    state.connections = readWords(in, cut == 1 ? nodes : 0);
+    state.connections = readWords(in, cut ? nodes : 0);
+    state.earlier = readVectors<4>(in, earlier ? nodes : 0, size == 4);
     return true;
 }
 
@@ -138,7 +153,7 @@ bool readCuts(ByteReader& in, std::vector<CutList::Entry>& cuts) {
         entry.stroke.kind = StrokeKind(kind);
         entry.stroke.continues = continues == 1;
         for (auto* ends : {&entry.stroke.from, &entry.stroke.to}) {
-            const std::vector<glm::dvec3> two = readVectors(in, 2, false);
+            const Vectors<3> two = readVectors<3>(in, 2, false);
             *ends = {two[0], two[1]};
         }
         entry.stroke.radius = in.f64();
@@ -161,7 +176,7 @@ bool readLayers(ByteReader& in, std::vector<CutLayer>& layers) {
     return true;
 }
 
-bool readOrgan(ByteReader& in, OrganSnapshot& organ) {
+bool readOrgan(ByteReader& in, std::uint32_t version, OrganSnapshot& organ) {
     organ.name = in.text();
     organ.solver = in.text();
     organ.traits.resize(in.count(in.u32(), 8));
@@ -169,9 +184,9 @@ bool readOrgan(ByteReader& in, OrganSnapshot& organ) {
         trait.name = in.text();
         trait.value = in.text();
     }
-    if (!readState(in, organ.state) || !readCuts(in, organ.cuts) || !readLayers(in, organ.layers))
+    if (!readState(in, version, organ.state) || !readCuts(in, organ.cuts) || !readLayers(in, organ.layers))
         return false;
-    organ.impulses = readVectors(in, in.count(in.u32(), 24), false);
+    organ.impulses = readVectors<3>(in, in.count(in.u32(), 24), false);
     organ.lastCut = in.u64();
     organ.level = in.u32();
     organ.levelState = in.text();
@@ -196,7 +211,7 @@ bool readThread(ByteReader& in, ThreadState& thread) {
 }
 
 /// False: it makes no sense, at in.at() or just before.
-bool readBody(ByteReader& in, Snapshot& snapshot) {
+bool readBody(ByteReader& in, std::uint32_t version, Snapshot& snapshot) {
     snapshot.program = in.text();
     snapshot.machine = in.text();
     snapshot.frame = in.i64();
@@ -205,9 +220,10 @@ bool readBody(ByteReader& in, Snapshot& snapshot) {
         return false;
     snapshot.organs.resize(in.count(in.u32(), kLeastOrganBytes));
     for (OrganSnapshot& organ : snapshot.organs)
-        if (!readOrgan(in, organ))
+        if (!readOrgan(in, version, organ))
             return false;
-    snapshot.threads.resize(in.count(in.u32(), kThreadBytes));
+    if (version >= 3)
+        snapshot.threads.resize(in.count(in.u32(), kThreadBytes));
     for (ThreadState& thread : snapshot.threads)
         if (!readThread(in, thread))
             return false;
@@ -262,12 +278,13 @@ Result<Snapshot> parseSnapshot(std::string_view bytes, const std::string& name) 
     const std::uint64_t low = trailer.u64(), high = trailer.u64();
     if (checksumOf(bytes.substr(0, bodyEnd)) != Checksum{low, high})
         return wrong("is damaged: its checksum does not fit its bytes" + again);
-    if (version != kVersion)
+    if (version < kOldestVersion || version > kVersion)
         return wrong("is a snapshot of format " + std::to_string(version) + ", and this program reads " +
-                     std::to_string(kVersion) + ": go on with the version that wrote it");
+                     std::to_string(kOldestVersion) + " and " + std::to_string(kVersion) +
+                     ": go on with the version that wrote it");
     Snapshot snapshot;
     ByteReader in(bytes.substr(0, bodyEnd), kHeaderBytes);
-    if (!readBody(in, snapshot))
+    if (!readBody(in, version, snapshot))
         return wrong("byte " + std::to_string(in.at()) +
                      ": no snapshot has such a value here: write it again");
     return snapshot;

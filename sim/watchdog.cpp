@@ -238,7 +238,7 @@ std::optional<Alarm> Watchdog::checkEnergy(const LatticeState& state, bool viole
                  available = std::max(0.0, budget_ - now.gravitational) + floor_;
     energyShare_ = inside / available;
     // A step that is too long for a moment does no harm: what it has given is the proof.
-    if (violent && inside > available)
+    if (violent && inside > available && setup_.method == StepMethod::explicitSteps)
         if (const std::optional<Alarm> alarm = checkStretch(state))
             return alarm;
     if (violent && inside > kEnergyTolerance * available) {

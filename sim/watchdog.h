@@ -15,7 +15,8 @@
 //     |S_i| has grown so far over its rest value that dt^2 omega^2 + 2 dt tau omega_s^2 < 4 (ARCHITECTURE.md,
 //     stability) fails with omega scaled by it, the node overruns the step: double length on all sides, or
 //     seven times along one axis. That is a bound from above, and a step that is too long for a moment does
-//     no harm: an organ is stopped for it once it holds more energy than can have come in.
+//     no harm: an organ is stopped for it once it holds more energy than can have come in. Implicit steps
+//     have no such bound: this is not looked at, the other two are.
 // Checking changes nothing in the state.
 
 #include "sim/lattice_state.h"

@@ -253,7 +253,7 @@ std::string RandomScenario::words() const {
 }
 
 Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps,
-                                                       Wildness wildness) {
+                                                       Wildness wildness, sim::StepMethod method) {
     Random random(seed);
     auto scenario = std::make_unique<RandomScenario>();
     scenario->seed = seed;
@@ -265,7 +265,9 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
     stiffenSome(random, setup.tissue);
     paintMaterials(random, setup.tissue, scenario->lattice);
     scenario->step = sim::stableStep(lattice, setup.tissue, kFrameTime);
-    setup.timeStep = scenario->step.timeStep;
+    const bool implicit = method == sim::StepMethod::implicit;
+    setup.method = method;
+    setup.timeStep = implicit ? kFrameTime : scenario->step.timeStep;
     const double end = steps * setup.timeStep;
     const Bounds bounds = boundsOf(lattice);
     if (random.chance(0.6))
@@ -284,7 +286,8 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
     if (random.chance(0.25))
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
             if (setup.fixed.empty() || !setup.fixed[node])
-                scenario->start.increments[node] += random.within(0.1);
+                scenario->start.increments[node] +=
+                    random.within(0.1) * (setup.timeStep / scenario->step.timeStep); // as fast, in m/s
     return scenario;
 }
 

@@ -52,7 +52,7 @@ Result<sim::Lattice> randomLattice(Random& random, std::size_t mostNodes);
 struct RandomScenario {
     std::uint32_t seed = 0;
     sim::Lattice lattice;
-    sim::SolverSetup setup; // points at `lattice`; fixed nodes, tools up to 1 m/s, gravity
+    sim::SolverSetup setup; // points at `lattice`; fixed nodes, tools up to 1 m/s, gravity, method
     sim::StableStep step;
     sim::LatticeState start;    // with random velocities in every fourth
     std::vector<sim::Cut> cuts; // m, s, as a scene's
@@ -65,8 +65,10 @@ struct RandomScenario {
     std::string words() const;
 };
 
-/// \param steps how many it will take: keys of tools and cuts lie within. Errors: of the phantoms.
-Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps,
-                                                       Wildness wildness);
+/// \param steps how many it will take: keys of tools and cuts lie within. Implicit ones are of 1/60 s. The
+/// same organ for either method. Errors: of the phantoms.
+Result<std::unique_ptr<RandomScenario>>
+randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps, Wildness wildness,
+               sim::StepMethod method = sim::StepMethod::explicitSteps);
 
 } // namespace serosa::app

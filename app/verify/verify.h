@@ -87,6 +87,10 @@ Status verifyNodeTree(const VerifyOptions& options, CheckList& checks);  // app/
 Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify/stability.cpp
 Status verifyContact(const VerifyOptions& options, CheckList& checks);   // app/verify/contact.cpp
 Status verifyGrasp(const VerifyOptions& options, CheckList& checks);     // app/verify/grasp.cpp
+Status verifyImplicit(const VerifyOptions& options, CheckList& checks);  // app/verify/implicit.cpp
+/// The part of group `implicit` with random organs.
+Status verifyImplicitScenarios(const VerifyOptions& options,
+                               CheckList& checks); // app/verify/implicit_scenarios.cpp
 
 /// Runs groups (all if `names` is empty), prints the table, writes `folder`/verify.json, report.html and the
 /// groups' pictures if folder is not empty. Returns an exit code: 0, 1 (a check failed), 2 (unknown group), 5

@@ -99,5 +99,45 @@ TEST(SceneCommands, CheckAndExplain) {
     EXPECT_NE(explain.out.find("steps a frame"), std::string::npos) << explain.out;
 }
 
+TEST(SceneCommands, SayWhichMethodSteps) {
+    const TestFolder folder;
+    ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
+    const std::string stiff =
+        "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 300\n"
+        "method = \"implicit\"\n[organ.tissue]\nyoung = \"100 GPa\"\n";
+    folder.write("stiff.toml", stiff);
+    const ChildResult check = runSerosa(folder.path(), {"scene", "check", "stiff.toml"});
+    EXPECT_EQ(check.exitCode, 0) << check.err;
+    EXPECT_NE(check.out.find("1 steps a frame (1 implicit)"), std::string::npos) << check.out;
+    const ChildResult explain = runSerosa(folder.path(), {"scene", "explain", "stiff.toml"});
+    EXPECT_EQ(explain.exitCode, 0) << explain.err;
+    for (const char* text : {"line 6    \"implicit\"", "0.01667 s, one implicit step a frame", "; not taken"})
+        EXPECT_NE(explain.out.find(text), std::string::npos) << text << explain.out;
+
+    // What implicit steps do not know yet, and what explicit ones would need, each in one line.
+    const std::string keys =
+        "keys = [{ t = \"0 s\", at = [\"0 mm\", \"200 mm\", \"0 mm\"] }, { t = \"1 s\", at "
+        "= [\"0 mm\", \"190 mm\", \"0 mm\"] }]\n";
+    std::string tooStiff = stiff;
+    tooStiff.erase(tooStiff.find("method"), tooStiff.find("[organ.tissue]") - tooStiff.find("method"));
+    for (const auto& [text, says] :
+         {std::pair{stiff + "[[tool]]\n" + keys, std::string("bad.toml:10: tool 1 pushes")},
+          std::pair{stiff + "[[tool]]\nmode = \"grasp\"\ngrip_force = \"1 N\"\n" + keys,
+                    std::string("bad.toml:12: tool 1 slips at its grip_force, and the steps of organ are "
+                                "implicit (line 6)")},
+          std::pair{stiff + "[[body]]\nkind = \"floor\"\nheight = \"-100 mm\"\n",
+                    std::string("bad.toml:10: body 1 pushes")},
+          std::pair{tooStiff, std::string("set method = \"implicit\"")}}) {
+        folder.write("bad.toml", text);
+        for (const std::vector<std::string>& arguments :
+             {std::vector<std::string>{"scene", "check", "bad.toml"}, {"run", "bad.toml"}}) {
+            const ChildResult bad = runSerosa(folder.path(), arguments);
+            EXPECT_EQ(bad.exitCode, 2) << text;
+            EXPECT_EQ(bad.errorLines(), 1U) << bad.err;
+            EXPECT_NE(bad.err.find(says), std::string::npos) << says << bad.err;
+        }
+    }
+}
+
 } // namespace
 } // namespace serosa::app

@@ -22,11 +22,12 @@ std::string glChoice() {
 const char kBall[] =
     "[[organ]]\nname = \"ball\"\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 200\ntear_strain = 0.6\n"
     "[[organ.fixed]]\nshape = \"lowest\"\nshare = 0.3\n";
-const char kRest[] =
+const char kTools[] =
     "[[tool]]\nradius = \"30 mm\"\nkeys = [{ t = \"0 s\", at = [\"0 mm\", \"72 mm\", \"0 mm\"] },"
     " { t = \"100 ms\", at = [\"0 mm\", \"55 mm\", \"0 mm\"] }]\n"
     "[[tool]]\nradius = \"30 mm\"\nmode = \"grasp\"\nkeys = [{ t = \"20 ms\", at = [\"40 mm\", \"0 mm\", \"0 "
-    "mm\"] }, { t = \"130 ms\", at = [\"60 mm\", \"0 mm\", \"0 mm\"] }]\n"
+    "mm\"] }, { t = \"130 ms\", at = [\"60 mm\", \"0 mm\", \"0 mm\"] }]\n";
+const char kRest[] =
     "[[cut]]\nkind = \"cauterize\"\nradius = \"10 mm\"\nkeys = [{ t = \"25 ms\", at = [\"-40 mm\", \"5 mm\", "
     "\"0 mm\"] }]\n"
     "[[cut]]\nkeys = [{ t = \"40 ms\", at = [\"-60 mm\", \"21 mm\", \"-60 mm\"], end = [\"-60 mm\", \"21 "
@@ -39,7 +40,8 @@ const char kSnapshot[] = "whole/snapshot_000004.serosa";
 class GlSnapshotRun : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder_.write("ball.toml", std::string("schema = 1\nduration = \"134 ms\"\n") + kBall + kRest);
+        folder_.write("ball.toml",
+                      std::string("schema = 1\nduration = \"134 ms\"\n") + kBall + kTools + kRest);
         const ChildResult made = serosa({"phantom", "ball", "--faces", "500", "-o", "ball.ply"});
         ASSERT_EQ(made.exitCode, 0) << made.err;
     }
@@ -106,11 +108,42 @@ TEST_F(GlSnapshotRun, goesOnWithTheSameBytes) {
     }
 }
 
+TEST_F(GlSnapshotRun, goesOnWithImplicitSteps) {
+    folder_.write("stiff.toml", std::string("schema = 1\nduration = \"134 ms\"\n") + kBall +
+                                    "[organ.tissue]\nyoung = \"1 MPa\"\n" + kRest);
+    std::string text = bytes("stiff.toml");
+    text.replace(text.find("nodes = 200"), 11, "nodes = 200\nmethod = \"implicit\"");
+    folder_.write("stiff.toml", text);
+    for (const std::string solver : {"fragment", "compute", "cpu", "reference"}) {
+        const ChildResult whole = run("whole", {"--force", "--solver", solver}, "stiff.toml");
+        ASSERT_EQ(whole.exitCode, 0) << whole.err;
+        const ChildResult rest = run("rest", {"--force", "--from", kSnapshot}, "stiff.toml");
+        ASSERT_EQ(rest.exitCode, 0) << rest.err;
+        for (const char* file : {"frame_000005.png", "frame_000008.png", "displacement_000008.nrrd"}) {
+            EXPECT_NE(bytes(std::string("whole/") + file), "") << file;
+            EXPECT_EQ(bytes(std::string("whole/") + file), bytes(std::string("rest/") + file)) << file;
+        }
+        const nlohmann::json a = summary("whole"), b = summary("rest");
+        EXPECT_EQ(a["state_hash"], b["state_hash"]);
+        EXPECT_EQ(b["step"]["method"], "implicit");
+        EXPECT_EQ(b["step"]["steps_per_frame"], 1);
+        EXPECT_GT(b["cuts"]["springs_cut"].get<int>(), 20);
+        EXPECT_GT(b["largest_displacement_m"].get<double>(), 0);
+    }
+    // The same scene with explicit steps is another.
+    text.replace(text.find("\"implicit\""), 10, "\"explicit\"");
+    folder_.write("other.toml", text);
+    const ChildResult other = run("other", {"--from", kSnapshot}, "other.toml");
+    EXPECT_EQ(other.exitCode, 2);
+    EXPECT_NE(other.err.find("time step is 0.016"), std::string::npos) << other.err;
+}
+
 TEST_F(GlSnapshotRun, goesOnWithSeveralOrgansAndPoses) {
     const std::string pose =
         "[[organ]]\nname = \"bent\"\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = "
         "100\n[organ.pose]\nbend_radius = \"150 mm\"\n";
-    folder_.write("two.toml", std::string("schema = 1\nduration = \"134 ms\"\n") + kBall + pose + kRest);
+    folder_.write("two.toml",
+                  std::string("schema = 1\nduration = \"134 ms\"\n") + kBall + pose + kTools + kRest);
     ASSERT_EQ(run("whole", {}, "two.toml").exitCode, 0);
     const ChildResult rest = run("rest", {"--from", kSnapshot}, "two.toml");
     ASSERT_EQ(rest.exitCode, 0) << rest.err;

@@ -22,8 +22,7 @@ std::unique_ptr<sim::Solver> onGpu(const SolverSetup& setup, int layout = -1,
     return sim::makeImplicitTextureSolver(setup, "compute", layout, limits).value();
 }
 
-/// A ragged block of three materials, held at one side, and cut. (Tools: implicit steps do not meet them yet
-/// on the GPU.)
+/// A ragged block of three materials, held at one side, and cut.
 struct Handled {
     Lattice lattice = test::patchedLattice(21, 4);
     SolverSetup setup;
@@ -107,13 +106,4 @@ TEST_F(GlImplicit, handlesAllThatMaterialsCanBe) {
         for (std::size_t i = 0; i < found.size(); ++i)
             EXPECT_LT(test::largestDistance(found[i], expected[i]), 0.02) << i;
     }
-}
-
-TEST_F(GlImplicit, refusesToolsThatItWouldNotMeet) {
-    const Lattice lattice = test::blockLattice(2, 2, 2);
-    SolverSetup setup = test::implicitSetup(lattice, 1000);
-    setup.bodies.resize(1);
-    const auto made = sim::makeImplicitTextureSolver(setup, "compute");
-    ASSERT_FALSE(made.ok());
-    EXPECT_NE(made.error().message.find("do not meet tools and bodies yet"), std::string::npos);
 }

@@ -1,6 +1,7 @@
 // Snapshots of the solvers on the CPU; files with any byte flipped, cut off anywhere, or of another scene.
 #include "sim/byte_stream.h"
 #include "sim/cpu_solver.h"
+#include "tests/sim/implicit_bodies.h"
 #include "tests/sim/snapshot_bodies.h"
 
 #include <filesystem>
@@ -16,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Small, with everything that the format has: cuts, layers, impulses, two organs, one of doubles.
+/// Small, with everything that the format has: cuts, layers, impulses, two organs, one of doubles and with
+/// earlier increments.
 Snapshot smallSnapshot(const Lattice& lattice) {
     sim::SolverSetup setup = test::handledBall(lattice);
     const auto solver = sim::makeReferenceSolver(setup);
@@ -38,6 +40,9 @@ Snapshot smallSnapshot(const Lattice& lattice) {
         solver->advance(3);
     }
     snapshot.threads = {{0.005, 1.5, 2.5, false, 0, 0.25, 0.125}, {-1, 0, 0, true, 0.75, 0, 0}};
+    auto& earlier = snapshot.organs.back().state.earlier;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        earlier.emplace_back(0.125 * double(node), -0.5, 0.25, node % 2);
     return snapshot;
 }
 
@@ -67,6 +72,7 @@ void expectEqual(const Snapshot& a, const Snapshot& b) {
         EXPECT_EQ(x.state.normals, y.state.normals);
         EXPECT_EQ(x.state.heldBy, y.state.heldBy);
         EXPECT_EQ(x.state.connections, y.state.connections);
+        EXPECT_EQ(x.state.earlier, y.state.earlier);
         EXPECT_EQ(x.layers, y.layers);
         EXPECT_EQ(x.impulses, y.impulses);
         EXPECT_EQ(x.lastCut, y.lastCut);
@@ -113,6 +119,41 @@ TEST(Snapshot, referenceWithTheVolumetricTermToo) {
 TEST(Snapshot, cpuGivesTheSameBytesAfterARestore) {
     test::expectSameBytesAfterARestore(
         [](const sim::SolverSetup& setup) { return sim::makeCpuSolver(setup); });
+}
+
+// The increments before the last are a part of where implicit steps go on.
+TEST(Snapshot, implicitStepsGoOnWithTheSameBytes) {
+    const Lattice lattice = test::capsuleLattice(8);
+    const sim::SolverSetup setup = test::capsuleSetup(lattice);
+    for (const bool exact : {true, false}) {
+        const auto made = [&] { return exact ? sim::makeReferenceSolver(setup) : sim::makeCpuSolver(setup); };
+        const auto whole = made(), rest = made();
+        whole->setState(sim::startState(setup));
+        whole->advance(6);
+        Snapshot taken;
+        taken.frameRate = 60;
+        taken.organs.resize(1);
+        taken.organs[0].traits = sim::setupTraits(setup);
+        sim::takeSnapshot(*whole, taken.organs[0]);
+        const auto read = sim::parseSnapshot(sim::snapshotBytes(taken), "file");
+        ASSERT_TRUE(read) << read.error().message;
+        ASSERT_TRUE(
+            sim::checkSnapshot(read->organs[0], "", rest->name(), sim::setupTraits(setup), lattice).ok());
+        rest->advance(2); // what it did before must not matter
+        ASSERT_TRUE(sim::restoreSnapshot(read->organs[0], *rest).ok());
+        whole->advance(5);
+        rest->advance(5);
+        EXPECT_EQ(whole->state().hash(), rest->state().hash());
+        EXPECT_EQ(whole->state().positions, rest->state().positions); // of the reference all 64 bits
+        // An organ of explicit steps is another.
+        sim::SolverSetup other = setup;
+        other.method = sim::StepMethod::explicitSteps;
+        const Status refused =
+            sim::checkSnapshot(read->organs[0], "", rest->name(), sim::setupTraits(other), lattice);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_NE(refused.error().message.find("method is implicit in the snapshot, explicit here"),
+                  std::string::npos);
+    }
 }
 
 TEST(Snapshot, fileKeepsEverything) {
@@ -164,7 +205,9 @@ TEST(Snapshot, singlePrecisionIsStoredAsSuchAndDoubleIsNotRounded) {
     for (auto* list : {&snapshot.organs[1].state.positions, &snapshot.organs[1].state.increments})
         for (glm::dvec3& v : *list)
             v = glm::dvec3(glm::vec3(v));
-    EXPECT_EQ(asDouble - sim::snapshotBytes(snapshot).size(), 27u * 6 * 4);
+    EXPECT_EQ(asDouble - sim::snapshotBytes(snapshot).size(), 27u * (3 + 3 + 4) * 4);
+    snapshot.organs[1].state.earlier[5].y = 0.1; // of one kind, all of them are
+    EXPECT_EQ(sim::snapshotBytes(snapshot).size(), asDouble);
     snapshot.organs[1].state.positions[5].y = std::numeric_limits<double>::denorm_min();
     const auto read = sim::parseSnapshot(sim::snapshotBytes(snapshot), "file");
     ASSERT_TRUE(read);
@@ -235,10 +278,31 @@ TEST(Snapshot, valuesBehindAFittingChecksumAreNotBelieved) {
     }
 }
 
+TEST(Snapshot, theFormatBeforeIsRead) {
+    const Lattice lattice = test::blockLattice(2, 2, 2);
+    Snapshot snapshot = smallSnapshot(lattice);
+    snapshot.threads.clear(); // version 2 had none, and no count of them
+    const auto withoutThreads = [&] {
+        std::string bytes = sim::snapshotBytes(snapshot).erase(sim::snapshotBytes(snapshot).size() - 20, 4);
+        bytes[12] = char(bytes.size() & 0xff);
+        bytes[13] = char(bytes.size() >> 8 & 0xff);
+        bytes[14] = char(bytes.size() >> 16 & 0xff);
+        return bytes;
+    };
+    std::string newer = withoutThreads();
+    snapshot.organs.back().state.earlier.clear(); // which it did not have either
+    std::string bytes = withoutThreads();
+    bytes[8] = newer[8] = 2;
+    const auto read = sim::parseSnapshot(sealed(bytes), "file");
+    ASSERT_TRUE(read) << read.error().message;
+    expectEqual(snapshot, *read);
+    EXPECT_NE(refused(sealed(newer)).find("no snapshot has such a value here"), std::string::npos);
+}
+
 TEST(Snapshot, otherFormatIsNamed) {
     std::string bytes = sim::snapshotBytes(smallSnapshot(test::blockLattice(2, 2, 2)));
     bytes[8] = 1;
-    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 3"),
+    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 2 and 3"),
               std::string::npos);
     EXPECT_NE(refused(bytes).find("is damaged"), std::string::npos) << "a flipped bit is no other version";
     EXPECT_NE(refused("ply\nformat ascii 1.0\n").find("is not a snapshot"), std::string::npos);

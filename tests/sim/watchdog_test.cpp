@@ -133,6 +133,42 @@ TEST(Watchdog, AStableStepWithTheSameStartGoesOn) {
     }
 }
 
+// What no explicit step could follow is no reason to stop an implicit one; energy that runs away is, and so
+// is what is no number.
+TEST(Watchdog, KnowsNoStepBoundOfImplicitSteps) {
+    const Lattice lattice = test::blockLattice(4, 4, 4);
+    SolverSetup setup = setupOf(lattice);
+    setup.timeStep = 1.0 / 60;
+    LatticeState state = stirred(lattice, 0.6);
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        state.positions[node] = 4.0 * lattice.restPosition(node);
+    for (const bool runsAway : {false, true}) {
+        setup.tissue.young = runsAway ? 1 : 5000; // moving most, or stretched most
+        setup.method = sim::StepMethod::explicitSteps;
+        Watchdog ofExplicit(setup, stepOf(setup));
+        setup.method = sim::StepMethod::implicit;
+        Watchdog ofImplicit(setup, stepOf(setup));
+        LatticeState later = state;
+        for (glm::dvec3& u : later.increments)
+            u *= runsAway ? 10 : 1.2;
+        ofExplicit.start(state);
+        const auto step = ofExplicit.check(later);
+        ASSERT_TRUE(step);
+        EXPECT_EQ(step->kind, runsAway ? AlarmKind::energy : AlarmKind::step);
+        ofImplicit.start(state);
+        const auto alarm = ofImplicit.check(later);
+        ASSERT_EQ(alarm.has_value(), runsAway);
+        if (alarm) {
+            EXPECT_EQ(alarm->kind, AlarmKind::energy);
+        }
+        later.increments[7].y = std::numeric_limits<double>::quiet_NaN();
+        const auto broken = ofImplicit.check(later);
+        ASSERT_TRUE(broken);
+        EXPECT_EQ(broken->kind, AlarmKind::notFinite);
+        EXPECT_EQ(broken->node, 7U);
+    }
+}
+
 // On all sides drawn out by s, a node inside or on a face resists 1 + 2 (1 - 1/s) times as much as at rest;
 // along one axis by 6 less than twice as much.
 TEST(Watchdog, SaysWhatStepAStretchedStateNeeds) {
