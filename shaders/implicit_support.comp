@@ -1,5 +1,6 @@
 // Before each of Newton's rounds, last pass: the force and the stiffness that contact, friction and finite grips give to each
-// node. Twin of ImplicitContact::support (sim/implicit_contact.h says what they are).
+// node. Twin of ImplicitContact::support (sim/implicit_contact.h says what they are), but for tools
+// that come in parts and what is held in the last round.
 #version 450 core
 #include "implicit_common.glsl"
 #include "implicit_table.glsl"

@@ -106,21 +106,24 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
     applyMoves(nodes);
 }
 
-void ContactStage::push(std::int64_t step, ContactNodes& nodes, double fastest) {
+void ContactStage::push(std::int64_t step, ContactNodes& nodes, double fastest, StepPart part, Loads loads) {
     if (empty())
         return;
-    place(step, nodes, fastest);
+    const std::vector<Load> before = loads_;
+    place(step, nodes, fastest, part);
     pushAll(nodes);
     applyMoves(nodes);
+    if (loads == Loads::forget)
+        loads_ = before;
 }
 
 std::vector<ContactStage::Push> ContactStage::pushes(std::int64_t step, const ContactNodes& nodes,
-                                                     double fastest, Friction friction) {
+                                                     double fastest, Friction friction, StepPart part) {
     std::vector<Push> pushes;
     if (empty())
         return pushes;
     reset(); // these are no moves
-    place(step, nodes, fastest);
+    place(step, nodes, fastest, part);
     if (friction == Friction::none)
         for (ToolMotion& collider : colliders_)
             collider.friction = 0;
@@ -136,10 +139,10 @@ std::vector<ContactStage::Push> ContactStage::pushes(std::int64_t step, const Co
 }
 
 /// Colliders, and what may be near them.
-void ContactStage::place(std::int64_t step, const ContactNodes& nodes, double fastest) {
+void ContactStage::place(std::int64_t step, const ContactNodes& nodes, double fastest, StepPart part) {
     ++run_;
     loaded_.clear();
-    colliders_ = colliderMotions(setup_, step);
+    colliders_ = colliderMotions(setup_, step, part);
     thin_.clear();
     for (const ToolMotion& collider : colliders_)
         thin_.push_back(thinnestHalfWidth(collider.shape));

@@ -58,7 +58,9 @@ public:
 
     /// Points 2 and 3 alone, for implicit steps: whoever is held by no grasp of this stage. \param fastest as
     /// run
-    void push(std::int64_t step, ContactNodes& nodes, double fastest);
+    enum class Loads { count, forget };
+    void push(std::int64_t step, ContactNodes& nodes, double fastest, StepPart part = {},
+              Loads loads = Loads::count);
 
     /// Of one node, lattice units: where points 2 and 3 would move it.
     struct Push {
@@ -66,8 +68,9 @@ public:
         glm::dvec3 move{0};
     };
     enum class Friction { asGiven, none };
-    /// What push() would do, without doing it: nothing moves, and no load is counted.
-    std::vector<Push> pushes(std::int64_t step, const ContactNodes& nodes, double fastest, Friction friction);
+    /// What push() would do, without doing it: nothing moves, and no load is counted. \param part of the step
+    std::vector<Push> pushes(std::int64_t step, const ContactNodes& nodes, double fastest, Friction friction,
+                             StepPart part = {});
     /// Of the last step asked for.
     const std::vector<ToolMotion>& colliders() const { return colliders_; }
     /// Counts what a collider gave to a node in another way. \param x where it began the step, lattice units.
@@ -75,6 +78,8 @@ public:
     void addLoad(std::size_t collider, const glm::dvec3& x, const glm::dvec3& impulse) {
         loads_[collider].add(colliders_[collider], 1, x, impulse);
     }
+    /// The collider that moved a node last.
+    std::uint32_t mover(std::uint32_t node) const { return mover_[node]; }
     /// 0 for fixed nodes.
     double inverseMass(std::uint32_t node) const { return inverseMass_[node]; }
 
@@ -111,7 +116,7 @@ private:
         }
     };
 
-    void place(std::int64_t step, const ContactNodes& nodes, double fastest);
+    void place(std::int64_t step, const ContactNodes& nodes, double fastest, StepPart part = {});
     void pushAll(const ContactNodes& nodes);
     void applyMoves(ContactNodes& nodes);
     void updateHeld(const ContactNodes& nodes, std::vector<std::uint32_t>& heldBy);

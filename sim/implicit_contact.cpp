@@ -12,8 +12,14 @@ namespace serosa::sim {
 
 namespace {
 
-constexpr double kPenalty = 5;             // r over the stiffness of a node against its neighbours
-constexpr double kCreeps = 1e-4;           // spacings a step: what was slower sticks
+constexpr double kPenalty = 5; // r over the stiffness of a node against its neighbours
+constexpr double kPart = 0.5;  // spacings that tools come further in a round; at most kParts rounds do so
+constexpr int kParts = 3;
+constexpr int kPushParts = 32; // of the step, at most, that the last pushes are done in
+constexpr double kFarInside =
+    0.05;                        // spacings: what the last pushes move by more is held so in the last round
+constexpr double kFirm = 20;     // times r
+constexpr double kCreeps = 1e-4; // spacings a step: what was slower sticks
 constexpr double kSticks = -1, kSlid = -2; // LatticeState::earlier
 
 template <class Real>
@@ -80,8 +86,9 @@ private:
 };
 
 template <class Real>
-ImplicitContact<Real>::ImplicitContact(const SolverSetup& setup, const ImplicitSystem<Real>& system)
-    : setup_(setup), stage_(setup, massShares(system)) {
+ImplicitContact<Real>::ImplicitContact(const SolverSetup& setup, const ImplicitSystem<Real>& system,
+                                       int rounds)
+    : setup_(setup), rounds_(rounds), stage_(setup, massShares(system)) {
     if (empty())
         return;
     stiffness_ = contactStiffness(setup, TissueField(*setup.lattice, setup.tissue));
@@ -97,6 +104,10 @@ void ImplicitContact<Real>::begin(std::int64_t step, const std::vector<ToolMotio
     tools_ = tools;
     heldBy_ = &heldBy;
     held_.clear();
+    double farthest = 0;
+    for (const ToolMotion& tool : tools)
+        farthest = std::max(farthest, glm::distance(tool.from, tool.to));
+    parts_ = std::clamp(int(std::ceil(farthest / kPart)), 1, kParts);
     heldMass_.fill(0);
     offset_.assign(heldBy.size(), glm::dvec3(0));
     touches_.assign(heldBy.size(), {});
@@ -165,6 +176,32 @@ void ImplicitContact<Real>::resist(Support& support, Touch& touch, const glm::dv
     support.stiffness += Real(turning) * (plane + Real(-1) * Matrix::dyad(Vector(touch.along)));
 }
 
+/// The last round: what the rounds left inside by far, the last pushes will move at once; its neighbours are
+/// to know.
+template <class Real>
+void ImplicitContact<Real>::holdPushed(const ImplicitSystem<Real>& system, const Vectors& increments,
+                                       std::vector<Support>& supports) {
+    using Matrix = typename ImplicitSystem<Real>::Matrix;
+    Vectors pushed = increments;
+    stage_.reset();
+    std::vector<std::uint32_t> moved = pushOut(system.step().positions, pushed, ContactStage::Loads::forget);
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+    for (const std::uint32_t node : moved) {
+        const Vector by = pushed[node] - increments[node];
+        if (system.step().isHeld(node) || glm::length(by) < Real(kFarInside))
+            continue;
+        const Real firm = Real(kFirm * stiffness_[node]);
+        supports[node].force = firm * by;
+        supports[node].stiffness = Matrix::identity(firm);
+        Touch& touch = touches_[node];
+        if (!touch.touches)
+            touch.collider = stage_.mover(node);
+        touch.touches = true;
+        touch.normal = glm::normalize(glm::dvec3(by));
+    }
+}
+
 template <class Real>
 bool ImplicitContact<Real>::support(ImplicitSystem<Real>& system, const Vectors& increments,
                                     const Vectors& lastStep, int round) {
@@ -173,14 +210,15 @@ bool ImplicitContact<Real>::support(ImplicitSystem<Real>& system, const Vectors&
         takeGiven(system, lastStep);
     Vectors ends = increments;
     const Nodes nodes(system.step().positions, ends, &offset_);
-    const auto pushes = stage_.pushes(step_, nodes, nodes.fastest(), ContactStage::Friction::none);
+    const auto pushes = stage_.pushes(step_, nodes, nodes.fastest(), ContactStage::Friction::none,
+                                      {0, std::min(1.0, (round + 1) / double(parts_))});
     for (Touch& touch : touches_) {
         touch.known = touch.touches;
         touch.touches = false;
     }
     if (pushes.empty() && held_.empty()) {
         system.support({});
-        return false;
+        return round + 1 < parts_; // the colliders are still on their way
     }
     std::vector<Support> supports(system.nodes());
     for (const ContactStage::Push& push : pushes) {
@@ -218,8 +256,35 @@ bool ImplicitContact<Real>::support(ImplicitSystem<Real>& system, const Vectors&
         const double most = tools_[holder].grip / (stage_.inverseMass(node) * heldMass_[holder]);
         resist(supports[node], touch, way, most, stiffness_[node]);
     }
+    if (round + 1 == rounds_)
+        holdPushed(system, increments, supports);
     system.support(std::move(supports));
     return true;
+}
+
+/// The stage's own pushes, along the way of the step in parts so short that none is jumped over.
+template <class Real>
+std::vector<std::uint32_t> ImplicitContact<Real>::pushOut(const Vectors& positions, Vectors& increments,
+                                                          ContactStage::Loads loads) {
+    const Vectors way = increments;
+    double farthest = Nodes(positions, increments, nullptr).fastest();
+    for (const ToolMotion& tool : tools_)
+        farthest = std::max(farthest, glm::distance(tool.from, tool.to));
+    const int parts = std::clamp(int(std::ceil(farthest / kPart)), 1, kPushParts);
+    std::vector<std::uint32_t> moved;
+    Vectors at = positions, part(way.size());
+    for (int k = 0; k < parts; ++k) {
+        for (std::size_t i = 0; i < way.size(); ++i)
+            part[i] = way[i] / Real(parts);
+        Nodes nodes(at, part, nullptr);
+        stage_.push(step_, nodes, nodes.fastest(), {k / double(parts), (k + 1) / double(parts)}, loads);
+        for (const std::uint32_t node : nodes.moved)
+            increments[node] += part[node] - way[node] / Real(parts);
+        moved.insert(moved.end(), nodes.moved.begin(), nodes.moved.end());
+        for (std::size_t i = 0; i < way.size(); ++i)
+            at[i] += part[i];
+    }
+    return moved;
 }
 
 template <class Real>
@@ -230,15 +295,14 @@ void ImplicitContact<Real>::finish(ImplicitSystem<Real>& system, const std::vect
     if (empty())
         return;
     const auto& step = system.step();
-    Nodes nodes(step.positions, increments, nullptr);
     takeGiven(system, lastStep);
     system.support({});
     Vectors given(increments.size());
     system.gradient(increments, given);
     stage_.reset();
     const Vectors solved = increments;
-    stage_.push(step_, nodes, nodes.fastest());
-    for (const std::uint32_t node : nodes.moved)
+    const std::vector<std::uint32_t> moved = pushOut(step.positions, increments, ContactStage::Loads::count);
+    for (const std::uint32_t node : moved)
         touched[node] = glm::dvec4(0, 0, 0, kSticks);
     for (std::size_t node = 0; node < given.size(); ++node) {
         const glm::dvec3 x(step.positions[node]);

@@ -4,21 +4,23 @@
 // nodes that are at y? Before each of Newton's rounds the nodes that it would move get a force and a
 // stiffness (ImplicitSystem::Support):
 //
-//   out     force r (P(y) - y), stiffness r n n^T, n along P(y) - y, y = x + u' - n p/r: a penalty of
-//   stiffness r, and
-//           the pressure p that the last round ended with (augmented Lagrangian), so that little is left
-//           inside;
-//   along   by Coulomb's law (active sets, as Alart & Curnier 1991): a node sticks, with stiffness r, until
-//   that took
-//           more than friction times its pressure in the round before; then it slides against just that
-//           force, until it would turn back. Across its way it is as stiff as the force's turning makes it.
+// - out: the force r (P(y) - y) with the stiffness r n n^T, n along P(y) - y, y = x + u' - n p/r: a penalty
+// of
+//   stiffness r, and the pressure p that the last round ended with (augmented Lagrangian), so that little is
+//   left inside;
+// - along, by Coulomb's law (active sets, as Alart & Curnier 1991): a node sticks, with stiffness r, until
+// that
+//   took more than friction times its pressure in the round before; then it slides against just that force,
+//   until it would turn back. Across its way it is as stiff as the force's turning makes it.
 //
 // Each step begins with what the last one ended with (LatticeState::earlier). A grasp of finite grip holds in
 // the same way, with the node's share of the grip for friction times pressure; one without limit holds its
 // nodes by themselves (ImplicitSystem::Step::share).
 //
-// When the rounds are done, push() of the stage moves out what is left inside: no tissue ends a step inside a
-// tool, and what a tool gave is just what the momentum of the organ changed by.
+// Tools that go far in the step come in parts, round by round; what is still far inside in the last round is
+// held outside. When the rounds are done, push() of the stage moves out what is left, along the way in parts:
+// no tissue ends a step inside a tool. What a tool gave is the gradient at the nodes that it touches, and m
+// times what push() moved them by.
 
 #include "shaders/shared_constants.h"
 #include "sim/contact_stage.h"
@@ -40,7 +42,8 @@ public:
     using Vector = typename ImplicitSystem<Real>::Vector;
     using Vectors = typename ImplicitSystem<Real>::Vectors;
 
-    explicit ImplicitContact(const SolverSetup& setup, const ImplicitSystem<Real>& system);
+    /// \param rounds of Newton's, where anything touches
+    ImplicitContact(const SolverSetup& setup, const ImplicitSystem<Real>& system, int rounds);
 
     /// Nothing ever to do.
     bool empty() const { return stage_.empty(); }
@@ -73,17 +76,23 @@ private:
         bool slides = false;
         glm::dvec3 along{0}; // where to
     };
+    std::vector<std::uint32_t> pushOut(const Vectors& positions, Vectors& increments,
+                                       ContactStage::Loads loads);
+    void holdPushed(const ImplicitSystem<Real>& system, const Vectors& increments,
+                    std::vector<Support>& supports);
     void takeGiven(const ImplicitSystem<Real>& system, const Vectors& lastStep);
     static void classify(Touch& touch, const glm::dvec3& way, double most);
     void resist(Support& support, Touch& touch, const glm::dvec3& way, double most, double stiffness) const;
 
     SolverSetup setup_;
+    int rounds_;
     ContactStage stage_;
     std::vector<double> frictions_;  // one a collider
     std::vector<double> stiffness_;  // r, one a node
     std::vector<glm::dvec3> offset_; // w, one a node
     std::vector<Touch> touches_;     // one a node
     std::int64_t step_ = 0;
+    int parts_ = 1; // rounds in which the colliders come to where the step ends
     std::vector<ToolMotion> tools_;
     std::vector<std::uint32_t>* heldBy_ = nullptr;
     std::vector<std::uint32_t> held_; // nodes, by finite grips

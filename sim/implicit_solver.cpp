@@ -26,7 +26,7 @@ public:
     ImplicitSolver(const SolverSetup& setup, const char* name, bool parallel, int threads,
                    const ImplicitLimits& limits)
         : setup_(setup), name_(name), arena_(threads > 0 ? threads : tbb::task_arena::automatic),
-          stepper_(setup, parallel, limits), contact_(setup, stepper_.system()),
+          stepper_(setup, parallel, limits), contact_(setup, stepper_.system(), limits.supportedRounds),
           state_(restState(*setup.lattice)) {
         if (setup_.fixed.empty())
             setup_.fixed.assign(setup.lattice->nodeCount(), false);

@@ -51,8 +51,17 @@ std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step)
     return motions;
 }
 
-std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t step) {
+std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t step, StepPart part) {
     std::vector<ToolMotion> motions = toolMotions(setup, step);
+    for (ToolMotion& motion : motions) {
+        const RigidPose start{motion.from, motion.turnFrom}, end{motion.to, motion.turnTo};
+        const auto at = [&](double share) { return share < 1 ? poseBetween(start, end, share) : end; };
+        const RigidPose first = part.from > 0 ? at(part.from) : start, last = at(part.to);
+        motion.from = first.at;
+        motion.turnFrom = first.turn;
+        motion.to = last.at;
+        motion.turnTo = last.turn;
+    }
     for (const Body& body : setup.bodies) {
         ToolMotion motion;
         motion.mode = SRS_TOOL_PUSH;

@@ -39,8 +39,11 @@ struct ToolMotion {
 /// Tools during step number `step` (from step * dt to (step + 1) * dt): one a tool of the setup.
 std::vector<ToolMotion> toolMotions(const SolverSetup& setup, std::int64_t step);
 
-/// The same, and after them the bodies, as pushing tools at rest.
-std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t step);
+/// The same, and after them the bodies, as pushing tools at rest. \param part of the step
+struct StepPart {
+    double from = 0, to = 1; // shares of the step
+};
+std::vector<ToolMotion> colliderMotions(const SolverSetup& setup, std::int64_t step, StepPart part = {});
 
 /// Does a grasp that closes take hold of what is at `x` (lattice units)? What lies within its shape.
 bool graspReaches(const ToolMotion& tool, const glm::dvec3& x);

@@ -27,7 +27,7 @@ struct Outcome {
     bool finite = true;
     double energyShare = 0; // most
     std::size_t springsCut = 0;
-    bool held = false, onGpu = false;
+    bool held = false, onGpu = false, pushed = false; // pushed: some tool pushes
 };
 
 Status cutFrame(const RandomScenario& scenario, sim::Solver& solver, double from, double to) {
@@ -92,6 +92,8 @@ Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int f
     }
     SEROSA_ASSIGN(Outcome outcome, play(*scenario, *solver, frames));
     outcome.onGpu = onGpu;
+    outcome.pushed = std::any_of(setup.tools.begin(), setup.tools.end(),
+                                 [](const sim::Tool& tool) { return tool.mode == sim::ToolMode::push; });
     return outcome;
 }
 
@@ -125,7 +127,8 @@ Status verifyImplicitScenarios(const VerifyOptions& options, CheckList& checks) 
         held += result.held;
         onGpu += result.onGpu;
         cut += result.springsCut;
-        if (result.energyShare > share) {
+        // Fast tools crush cells in a step: what that takes is not in the loads (docs/methods/implicit.md).
+        if (!result.pushed && result.energyShare > share) {
             share = result.energyShare;
             worst = result.words;
         }
@@ -138,8 +141,9 @@ Status verifyImplicitScenarios(const VerifyOptions& options, CheckList& checks) 
         std::to_string(count) + " random scenarios, " + std::to_string(frames) + " frames: ";
     checks.equalAbs(of + "states that are not finite", notFinite, 0, 0, "");
     checks.equalAbs(of + "stopped by the watchdog" + failures, alarms, 0, 0, "");
-    checks.atMost(of + "kinetic and elastic energy over what can have come in, most (" + worst + ")", share,
-                  1, "1");
+    checks.atMost(of + "where no tool pushes, kinetic and elastic energy over what can have come in, most (" +
+                      worst + ")",
+                  share, 1, "1");
     checks.atLeast(of + "share in which a grasp held", held / count, 0.3, "1");
     checks.atLeast(of + "played on the GPU", onGpu, 1, "");
     checks.atLeast(of + "springs cut", double(cut), options.full ? 10000 : 1000, "");
