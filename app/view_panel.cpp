@@ -8,6 +8,8 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 namespace serosa::app {
 
 namespace {
@@ -124,6 +126,9 @@ bool ViewPanel::wantsKeyboard() const {
 void ViewPanel::draw(ViewControls& controls, const ViewReadings& readings) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // Of a window that another program just destroyed, GLFW gives what was in memory as the size.
+    ImVec2& shown = ImGui::GetIO().DisplaySize;
+    shown = ImVec2(std::max(shown.x, 0.0f), std::max(shown.y, 0.0f));
     ImGui::NewFrame();
     const float scale = ImGui::GetIO().FontGlobalScale;
     if (controls.panel) {
