@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint32_t kFirstSeed = 1000;
 constexpr std::size_t kMostNodes = 3000;
-constexpr std::uint32_t kOnGpu = 10; // every so many scenarios one is stepped in textures
+constexpr std::uint32_t kOnGpu = 20; // every so many scenarios one is stepped in textures
 
 struct Outcome {
     std::string words, failure; // failure empty: all is well
