@@ -118,15 +118,14 @@ void ContactStage::push(std::int64_t step, ContactNodes& nodes, double fastest, 
 }
 
 std::vector<ContactStage::Push> ContactStage::pushes(std::int64_t step, const ContactNodes& nodes,
-                                                     double fastest, Friction friction, StepPart part) {
+                                                     double fastest, StepPart part) {
     std::vector<Push> pushes;
     if (empty())
         return pushes;
     reset(); // these are no moves
     place(step, nodes, fastest, part);
-    if (friction == Friction::none)
-        for (ToolMotion& collider : colliders_)
-            collider.friction = 0;
+    for (ToolMotion& collider : colliders_)
+        collider.friction = 0;
     const std::vector<Load> before = loads_;
     pushAll(nodes);
     loads_ = before;

@@ -67,9 +67,9 @@ public:
         std::uint32_t node = 0, collider = 0; // the one that moved it last
         glm::dvec3 move{0};
     };
-    enum class Friction { asGiven, none };
-    /// What push() would do, without doing it: nothing moves, and no load is counted. \param part of the step
-    std::vector<Push> pushes(std::int64_t step, const ContactNodes& nodes, double fastest, Friction friction,
+    /// What push() would do were there no friction, without doing it: nothing moves, and no load is counted.
+    /// \param part of the step
+    std::vector<Push> pushes(std::int64_t step, const ContactNodes& nodes, double fastest,
                              StepPart part = {});
     /// Of the last step asked for.
     const std::vector<ToolMotion>& colliders() const { return colliders_; }

@@ -210,8 +210,8 @@ bool ImplicitContact<Real>::support(ImplicitSystem<Real>& system, const Vectors&
         takeGiven(system, lastStep);
     Vectors ends = increments;
     const Nodes nodes(system.step().positions, ends, &offset_);
-    const auto pushes = stage_.pushes(step_, nodes, nodes.fastest(), ContactStage::Friction::none,
-                                      {0, std::min(1.0, (round + 1) / double(parts_))});
+    const auto pushes =
+        stage_.pushes(step_, nodes, nodes.fastest(), {0, std::min(1.0, (round + 1) / double(parts_))});
     for (Touch& touch : touches_) {
         touch.known = touch.touches;
         touch.touches = false;

@@ -30,20 +30,6 @@ struct Outcome {
     bool held = false, onGpu = false, pushed = false; // pushed: some tool pushes
 };
 
-Status cutFrame(const RandomScenario& scenario, sim::Solver& solver, double from, double to) {
-    for (const sim::Cut& cut : scenario.cuts)
-        for (const sim::Stroke& stroke : cut.strokes(from, to))
-            SEROSA_TRY(solver.cut(stroke));
-    if (scenario.tearStrain > 0) {
-        sim::Stroke tear;
-        tear.kind = sim::StrokeKind::tear;
-        tear.strain = scenario.tearStrain;
-        SEROSA_TRY(solver.cut(tear));
-    }
-    solver.forgetCuts(); // nothing is undone here, and layers take memory
-    return {};
-}
-
 /// The watchdog looks at every frame.
 Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int frames) {
     Outcome outcome;
@@ -56,7 +42,7 @@ Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int fr
     for (int i = 1; i <= frames; ++i) {
         solver.advance(1);
         watchdog.addWork((i - 1) * frame, i * frame, solver.takeLoads());
-        SEROSA_TRY(cutFrame(scenario, solver, (i - 1) * frame, i * frame));
+        SEROSA_TRY(scenario.cutFrame(solver, (i - 1) * frame, i * frame));
         state = solver.state();
         const std::optional<sim::Alarm> alarm = watchdog.check(state);
         outcome.energyShare = std::max(outcome.energyShare, watchdog.energyShare());

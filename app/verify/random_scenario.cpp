@@ -238,6 +238,20 @@ Result<sim::Lattice> randomLattice(Random& random, std::size_t mostNodes) {
     return sim::latticeFromCells(std::move(cells), random.number(0.001, 0.006), glm::dvec3(0));
 }
 
+Status RandomScenario::cutFrame(sim::Solver& solver, double from, double to) const {
+    for (const sim::Cut& cut : cuts)
+        for (const sim::Stroke& stroke : cut.strokes(from, to))
+            SEROSA_TRY(solver.cut(stroke));
+    if (tearStrain > 0) {
+        sim::Stroke tear;
+        tear.kind = sim::StrokeKind::tear;
+        tear.strain = tearStrain;
+        SEROSA_TRY(solver.cut(tear));
+    }
+    solver.forgetCuts(); // nothing is undone here, and layers take memory
+    return {};
+}
+
 std::string RandomScenario::words() const {
     std::string text =
         "seed " + std::to_string(seed) + ": " + std::to_string(lattice.nodeCount()) + " nodes, h " +

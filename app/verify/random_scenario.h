@@ -63,6 +63,8 @@ struct RandomScenario {
     RandomScenario& operator=(const RandomScenario&) = delete;
     /// "seed 7: 812 nodes, nu 0.41, 2 tools, ...": enough to know what is special about it.
     std::string words() const;
+    /// The strokes and tears of one frame, as ScenePlayer makes them. Errors: as Solver::cut.
+    Status cutFrame(sim::Solver& solver, double from, double to) const;
 };
 
 /// \param steps how many it will take: keys of tools and cuts lie within. Implicit ones are of 1/60 s. The

@@ -34,21 +34,6 @@ struct Outcome {
     bool touched = false, volumetric = false;
 };
 
-/// The strokes of one frame, as ScenePlayer makes them.
-Status cutFrame(const RandomScenario& scenario, sim::Solver& solver, double from, double to) {
-    for (const sim::Cut& cut : scenario.cuts)
-        for (const sim::Stroke& stroke : cut.strokes(from, to))
-            SEROSA_TRY(solver.cut(stroke));
-    if (scenario.tearStrain > 0) {
-        sim::Stroke tear;
-        tear.kind = sim::StrokeKind::tear;
-        tear.strain = scenario.tearStrain;
-        SEROSA_TRY(solver.cut(tear));
-    }
-    solver.forgetCuts(); // nothing is undone here, and layers take memory
-    return {};
-}
-
 Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int steps) {
     Outcome outcome;
     outcome.words = scenario.words() + ", " + solver.name();
@@ -68,7 +53,7 @@ Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int st
         watchdog.addWork((i - 1) * frame, i * frame, loads);
         for (const sim::ToolLoad& load : loads)
             outcome.touched = outcome.touched || load.impulse != glm::dvec3(0);
-        SEROSA_TRY(cutFrame(scenario, solver, (i - 1) * frame, i * frame));
+        SEROSA_TRY(scenario.cutFrame(solver, (i - 1) * frame, i * frame));
         if (i % kFramesBetweenChecks != 0 && (i + 1) * kStepsAFrame <= steps)
             continue;
         const sim::LatticeState state = solver.state();

@@ -39,6 +39,30 @@ inline glm::dvec3 massCentre(const sim::Lattice& lattice, const sim::LatticeStat
     return sum / mass;
 }
 
+inline double totalMass(const sim::SolverSetup& setup) { // kg
+    double shares = 0;
+    for (std::size_t i = 0; i < setup.lattice->nodeCount(); ++i)
+        shares += setup.lattice->massShare(i);
+    return shares * setup.tissue.nodeMass(setup.lattice->spacing);
+}
+
+/// A block whose surface, for contact, is that of its cells.
+inline sim::Lattice block(int nx, int ny, int nz, double spacing) {
+    sim::Lattice lattice = blockLattice(nx, ny, nz, spacing);
+    lattice.depthSteps.assign(lattice.nodeCount(), 170); // Lattice::restDepth
+    return lattice;
+}
+
+/// y <= 0 is solid.
+inline sim::Body floorOf(double friction) {
+    sim::Body body;
+    body.name = "floor";
+    body.shape.kind = sim::ShapeKind::halfSpace;
+    body.shape.radius = 0;
+    body.friction = friction;
+    return body;
+}
+
 inline void fixWhere(sim::SolverSetup& setup, bool (*where)(const glm::ivec3&)) {
     setup.fixed.clear();
     for (const glm::ivec3& node : setup.lattice->nodes)

@@ -15,35 +15,16 @@ using sim::Lattice;
 using sim::LatticeState;
 using sim::SolverSetup;
 
+using test::block;
+using test::floorOf;
+using test::totalMass;
+
 namespace {
 
 class GlImplicitContact : public test::GlTest {};
 
 std::unique_ptr<sim::Solver> onGpu(const SolverSetup& setup, int layout = -1) {
     return sim::makeImplicitTextureSolver(setup, "compute", layout).value();
-}
-
-Lattice block(int nx, int ny, int nz, double spacing) {
-    Lattice lattice = test::blockLattice(nx, ny, nz, spacing);
-    lattice.depthSteps.assign(lattice.nodeCount(),
-                              170); // Lattice::restDepth: its surface is that of its cells
-    return lattice;
-}
-
-sim::Body floorOf(double friction) {
-    sim::Body body;
-    body.name = "floor";
-    body.shape.kind = sim::ShapeKind::halfSpace;
-    body.shape.radius = 0;
-    body.friction = friction;
-    return body;
-}
-
-double totalMass(const SolverSetup& setup) {
-    double sum = 0;
-    for (std::size_t i = 0; i < setup.lattice->nodeCount(); ++i)
-        sum += setup.lattice->massShare(i);
-    return sum * setup.tissue.nodeMass(setup.lattice->spacing);
 }
 
 } // namespace

@@ -15,35 +15,15 @@ using sim::Lattice;
 using sim::LatticeState;
 using sim::SolverSetup;
 
+using test::block;
 using test::fixWhere;
+using test::floorOf;
 using test::implicitSetup;
 using test::kFrame;
 using test::massCentre;
+using test::totalMass;
 
 namespace {
-
-sim::Body floorOf(double friction) {
-    sim::Body body;
-    body.name = "floor";
-    body.shape.kind = sim::ShapeKind::halfSpace;
-    body.shape.radius = 0;
-    body.friction = friction;
-    return body;
-}
-
-/// The organ's surface is that of its cells.
-Lattice block(int nx, int ny, int nz, double spacing) {
-    Lattice lattice = test::blockLattice(nx, ny, nz, spacing);
-    lattice.depthSteps.assign(lattice.nodeCount(), 170); // Lattice::restDepth
-    return lattice;
-}
-
-double totalMass(const SolverSetup& setup) {
-    double sum = 0;
-    for (std::size_t i = 0; i < setup.lattice->nodeCount(); ++i)
-        sum += setup.lattice->massShare(i);
-    return sum * setup.tissue.nodeMass(setup.lattice->spacing);
-}
 
 double lowest(const LatticeState& state) {
     double low = 1e9;
