@@ -51,10 +51,10 @@ void ScenePlayer::takeSteps(std::size_t i) {
     }
     cut(i);
     guards_[i]->endFrame(frame_);
+    if (organ.uploaded) // what a change of level fades from, too
+        organ.uploaded->upload(organ.solver->state());
     if (const int level = wantedLevel(i); level != parts_.levels[i].active()) // nothing was cut
         changeLevel(i, level, before);
-    else if (organ.uploaded)
-        organ.uploaded->upload(organ.solver->state());
     if (parts_.levels[i].count() > 1)
         parts_.renderer->setBlendFrame(i, frame_ - levelChoices_[i].changedAt);
 }

@@ -88,9 +88,8 @@ TEST_P(GlLevels, FollowTheScriptAndTheDrawnSurfaceDoesNotJump) {
         const double moved = farthest(now, last);
         (frame == 6 || frame == 12 || frame == 18 ? jump : swing) =
             std::max(frame == 6 || frame == 12 || frame == 18 ? jump : swing, moved);
-        // The switch itself, to rounding, moved nothing that is drawn. (Solvers of the processor draw a
-        // switch one frame's motion ahead.)
-        if (frame == 6 && with->organs[0]->solver->textures()) {
+        // The switch itself, to rounding, moved nothing that is drawn.
+        if (frame == 6) {
             EXPECT_LT(farthest(now, expected), 1e-4 * h);
         }
         last = now;
