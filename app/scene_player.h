@@ -40,6 +40,10 @@ public:
     sim::LatticeState state(std::size_t organ) const;
     /// The strokes that an organ met so far.
     const sim::CutList& cuts(std::size_t organ) const { return cuts_[organ]; }
+    /// What they left, as LatticeState::connections; empty: nothing is cut.
+    const std::vector<std::uint32_t>& connections(std::size_t organ) const {
+        return shownConnections_[organ];
+    }
     /// Of all organs, joined by '-': `state_hash` of a run's summary after as many frames.
     std::string stateHash() const;
     /// Lets the watchdog look at all organs now. One whose state is wrong goes back to its last good one and

@@ -1,4 +1,4 @@
-// See app/surface_pick.h. Moller and Trumbore, Fast, minimum storage ray/triangle intersection (1997).
+// See app/surface_pick.h.
 #include "app/surface_pick.h"
 
 #include <cmath>
@@ -14,25 +14,6 @@ Ray rayThrough(const render::CameraView& camera, const glm::dvec2& at, const glm
     };
     const glm::dvec3 near = unproject(-1);
     return {near, glm::normalize(unproject(1) - near)};
-}
-
-std::optional<double> firstHit(const Ray& ray, const std::vector<glm::dvec3>& positions,
-                               const std::vector<glm::uvec3>& faces) {
-    std::optional<double> nearest;
-    for (const glm::uvec3& face : faces) {
-        const glm::dvec3& a = positions[face.x];
-        const glm::dvec3 ab = positions[face.y] - a, ac = positions[face.z] - a;
-        const glm::dvec3 p = glm::cross(ray.along, ac);
-        const double facing = glm::dot(ab, p); // positive: the ray comes from outside
-        if (!(facing > 0))
-            continue;
-        const glm::dvec3 from = ray.from - a, q = glm::cross(from, ab);
-        const double u = glm::dot(from, p) / facing, v = glm::dot(ray.along, q) / facing;
-        const double distance = glm::dot(ac, q) / facing;
-        if (u >= 0 && v >= 0 && u + v <= 1 && distance >= 0 && (!nearest || distance < *nearest))
-            nearest = distance;
-    }
-    return nearest;
 }
 
 glm::dvec3 onPlane(const Ray& ray, const glm::dvec3& point, const glm::dvec3& normal) {

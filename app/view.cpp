@@ -69,7 +69,7 @@ public:
         bool ended = false;
         while (!ended) {
             takeEvents(window_.poll(waitTime()));
-            guideHand();
+            SEROSA_TRY(guideHand());
             simulate();
             act();
             draw();
@@ -114,13 +114,14 @@ private:
         }
     }
 
-    void guideHand() {
+    Status guideHand() {
         if (!controls_.hand && hand_.idle())
-            return;
-        const std::string said =
-            hand_.follow(controls_, cameraView(), glm::dvec2(window_.size()), player_.time());
+            return {};
+        SEROSA_ASSIGN(const std::string said,
+                      hand_.follow(controls_, cameraView(), glm::dvec2(window_.size()), player_));
         if (!said.empty())
             say(said);
+        return {};
     }
 
     void frame() {

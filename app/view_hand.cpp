@@ -11,34 +11,36 @@ constexpr double kWheelShare = 0.01; // of the organs' size, a notch of the whee
 
 } // namespace
 
-std::optional<glm::dvec3> ViewHand::pick(const Ray& ray) const {
+Result<std::optional<glm::dvec3>> ViewHand::pick(const Ray& ray, const ScenePlayer& player) {
     std::optional<double> nearest;
     for (std::size_t i = 0; i < parts_.organs.size(); ++i) {
-        const OrganParts& organ = *parts_.organs[i];
-        const std::optional<double> hit = firstHit(
-            ray, parts_.renderer->readDeformedPositions(organ.textures(), parts_.surfaceMapping(), i),
-            organ.surface.metres.faces);
+        SEROSA_ASSIGN(const std::optional<double> hit,
+                      tissue_.firstHit(i, *parts_.organs[i], player.connections(i), ray));
         if (hit && (!nearest || *hit < *nearest))
             nearest = hit;
     }
     if (!nearest)
-        return std::nullopt;
-    return ray.from + *nearest * ray.along;
+        return std::optional<glm::dvec3>();
+    return std::optional<glm::dvec3>(ray.from + *nearest * ray.along);
 }
 
-std::string ViewHand::follow(ViewControls& controls, const render::CameraView& camera,
-                             const glm::dvec2& window, double now) {
+Result<std::string> ViewHand::follow(ViewControls& controls, const render::CameraView& camera,
+                                     const glm::dvec2& window, const ScenePlayer& player) {
     if (!parts_.hands)
-        return std::exchange(wanted_, controls.hand) != controls.hand && controls.hand
-                   ? "no hands here: the scene has as many tools as there can be"
-                   : "";
+        return std::string(std::exchange(wanted_, controls.hand) != controls.hand && controls.hand
+                               ? "no hands here: the scene has as many tools as there can be"
+                               : "");
     const Ray ray = rayThrough(camera, controls.pointer, window);
+    const double now = player.time();
     std::string said;
     if (wanted_ != controls.hand) {
         wanted_ = controls.hand;
         parts_.hands->end(now);
         force_ = depth_ = 0;
-        const std::optional<glm::dvec3> touched = wanted_ ? pick(ray) : std::nullopt;
+        std::optional<glm::dvec3> touched;
+        if (wanted_) {
+            SEROSA_ASSIGN(touched, pick(ray, player));
+        }
         if (touched) {
             start_ = *touched;
             toEye_ = glm::dvec3(camera.cameraFromWorld[0][2], camera.cameraFromWorld[1][2],

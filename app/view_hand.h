@@ -4,6 +4,7 @@
 
 #include "app/scene_player.h"
 #include "app/surface_pick.h"
+#include "app/tissue_pick.h"
 #include "app/view_input.h"
 
 #include <string>
@@ -16,10 +17,10 @@ public:
     explicit ViewHand(RunParts& parts) : parts_(parts) {}
 
     /// Follows the controls. To be called before the frames that follow `now` (s of the scene) are taken.
-    /// Where a hand comes in, the drawn surfaces are read back once.
-    /// \param window its size, screen units. Returns what is to be said; mostly nothing.
-    std::string follow(ViewControls& controls, const render::CameraView& camera, const glm::dvec2& window,
-                       double now);
+    /// \param window its size, screen units. Returns what is to be said; mostly nothing. Errors: of the
+    /// shaders that say what lies under the pointer.
+    Result<std::string> follow(ViewControls& controls, const render::CameraView& camera,
+                               const glm::dvec2& window, const ScenePlayer& player);
     /// Before a frame that ends at `end`, s.
     void beforeFrame(double end);
     /// After it: what the active hand felt lately.
@@ -33,9 +34,10 @@ public:
     double force() const { return force_; }
 
 private:
-    std::optional<glm::dvec3> pick(const Ray& ray) const;
+    Result<std::optional<glm::dvec3>> pick(const Ray& ray, const ScenePlayer& player);
 
     RunParts& parts_;
+    TissuePick tissue_;
     std::optional<HandKind> wanted_; // of the controls when last seen
     glm::dvec3 toEye_{0, 0, 1};
     double depth_ = 0; // m: how far the wheel moved the plane of the drag away from the user
