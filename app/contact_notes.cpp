@@ -2,7 +2,7 @@
 #include "app/contact_notes.h"
 
 #include "app/organ_setup.h"
-#include "sim/contact_point.h"
+#include "app/tool_entry.h"
 #include "sim/quantity.h"
 #include "sim/shape_distance.h"
 
@@ -13,19 +13,6 @@ namespace serosa::app {
 namespace {
 
 constexpr double kTouching = 0.1; // spacings: less deep counts as touching
-
-/// How deep an organ begins inside of a shape, spacings; negative where it does not.
-double depthInside(const sim::RigidShape& metres, const sim::RigidPose& pose, const sim::Lattice& lattice) {
-    const sim::RigidShape shape = sim::scaledShape(metres, 1 / lattice.spacing);
-    const double thin = sim::thinnestHalfWidth(shape);
-    double deepest = -1;
-    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
-        const glm::dvec3 own = pose.toOwn(lattice.toWorld(lattice.restPosition(node))) / lattice.spacing;
-        deepest = std::max(deepest, sim::contactDepthFor(lattice.restDepth(node), thin) -
-                                        sim::shapeDistance(shape, own));
-    }
-    return deepest;
-}
 
 /// Nodes of an organ at rest that `first` holds when `second` closes, and that it wants, too.
 std::size_t sharedNodes(const sim::Tool& first, const sim::Tool& second, const PlacedOrgan& placed) {
@@ -53,8 +40,20 @@ bool isCoupled(const sim::Scene& scene, const sim::Organ& organ) {
     return false;
 }
 
-std::string beginsInside(const std::string& name, const std::string& organ, double metres, const char* what) {
-    return name + " begins inside of " + organ + ", " + shortNumber(1e3 * metres) + " mm deep: " + what;
+/// Nodes that a grasp finds where it closes, were the organs at rest; with those that are fixed.
+std::size_t nodesInside(const sim::Tool& tool, const std::vector<PlacedOrgan>& organs, std::size_t& fixed) {
+    const sim::RigidShape shape = tool.wholeShape();
+    const sim::RigidPose pose = tool.poseAt(tool.keys.front().time);
+    std::size_t inside = 0;
+    fixed = 0;
+    for (const PlacedOrgan& placed : organs)
+        for (std::size_t node = 0; node < placed.lattice->nodeCount(); ++node)
+            if (sim::shapeDistance(
+                    shape, pose.toOwn(placed.lattice->toWorld(placed.lattice->restPosition(node)))) < 0) {
+                ++inside;
+                fixed += (*placed.fixed)[node];
+            }
+    return inside;
 }
 
 } // namespace
@@ -85,19 +84,31 @@ Status checkGrasps(const sim::Scene& scene, const std::vector<PlacedOrgan>& orga
 
 std::vector<std::string> contactNotes(const sim::Scene& scene, const std::vector<PlacedOrgan>& organs) {
     std::vector<std::string> notes;
+    for (const sim::Tool& tool : scene.tools) {
+        if (const auto entry = toolEntry(tool, organs))
+            notes.push_back(entryNote(tool, *entry));
+        if (tool.mode != sim::ToolMode::grasp || tool.live)
+            continue;
+        std::size_t fixed = 0;
+        const std::size_t inside = nodesInside(tool, organs, fixed);
+        if (inside == fixed)
+            notes.push_back(
+                tool.name + " closes at " +
+                sim::formatQuantity(tool.keys.front().time, sim::Dimension::time) +
+                (inside == 0 ? " where no node rests" : " on fixed nodes alone") +
+                ": it holds nothing, unless tissue has come there by then; move its first key, or take a "
+                "larger shape");
+        if (tool.keys.front().time > scene.duration)
+            notes.push_back(tool.name + " closes after the end of the scene");
+    }
     for (const PlacedOrgan& placed : organs) {
         const sim::Lattice& lattice = *placed.lattice;
         const std::string& organ = placed.organ->name;
-        for (const sim::Tool& tool : scene.tools)
-            if (tool.mode == sim::ToolMode::push && !tool.live)
-                if (const double deep = depthInside(tool.wholeShape(), tool.poseAt(0), lattice);
-                    deep > kTouching)
-                    notes.push_back(beginsInside(tool.name, organ, deep * lattice.spacing,
-                                                 "it pushes the tissue out slowly; let it begin outside"));
         for (const sim::Body& body : scene.bodies)
-            if (const double deep = depthInside(body.shape, body.pose, lattice); deep > kTouching)
-                notes.push_back(beginsInside(body.name, organ, deep * lattice.spacing,
-                                             "it pushes the tissue out slowly; put the organ beside it"));
+            if (const double deep = depthInside(body.shape, body.pose, lattice);
+                deep > kTouching * lattice.spacing)
+                notes.push_back(body.name + " begins inside of " + organ + ", " + shortNumber(1e3 * deep) +
+                                " mm deep: it pushes the tissue out; put the organ beside it");
         const bool free = std::find(placed.fixed->begin(), placed.fixed->end(), true) == placed.fixed->end();
         if (free && !isCoupled(scene, *placed.organ) && scene.gravity != glm::dvec3(0) &&
             scene.bodies.empty())

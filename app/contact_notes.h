@@ -23,7 +23,8 @@ struct PlacedOrgan {
 /// line of the second.
 Status checkGrasps(const sim::Scene& scene, const std::vector<PlacedOrgan>& organs);
 
-/// A line for each pushing tool and body that begins inside of an organ, and for an organ that will fall.
+/// A line for each pushing tool and body that begins inside of an organ, for a grasp that finds nothing to
+/// hold where it closes, and for an organ that will fall.
 std::vector<std::string> contactNotes(const sim::Scene& scene, const std::vector<PlacedOrgan>& organs);
 
 } // namespace serosa::app

@@ -54,18 +54,18 @@ int scriptedLevel(const sim::Organ& organ, double time) {
     return level;
 }
 
-int ruledLevel(const LevelScene& what, const sim::Lattice& lattice, const sim::LatticeState& state,
-               int frame) {
+RuledLevel ruledLevel(const LevelScene& what, const sim::Lattice& lattice, const sim::LatticeState& state,
+                      int frame) {
     const double now = frame / what.scene->frameRate, until = (frame + kFramesAhead) / what.scene->frameRate;
     const double coarsest = what.finest * (1 << (what.organ->levels - 1));
     if (cutMoves(*what.scene, now, until) ||
         toolNear(*what.scene, boundsOf(lattice, state), kNear * coarsest, now, until))
-        return 1;
+        return {1, true};
     double fastest2 = 0; // lattice units a step
     for (const glm::dvec3& u : state.increments)
         fastest2 = std::max(fastest2, glm::dot(u, u));
     const double speed = std::sqrt(fastest2) * what.stepsAFrame * lattice.spacing / what.finest;
-    return speed > kFast ? 1 : speed > kCalm ? std::min(2, what.organ->levels) : what.organ->levels;
+    return {speed > kFast ? 1 : speed > kCalm ? std::min(2, what.organ->levels) : what.organ->levels, false};
 }
 
 } // namespace serosa::app

@@ -1,7 +1,9 @@
-// See app/level_state.h. Bytes: wanted, calmer (u32), frame of the last change (i64); for each pair of levels
-// a list (u64) of three f64; a list (u64) of f32.
+// See app/level_state.h. Bytes: wanted, calmer (u32), frame of the last change (i64), looks, patience (u32),
+// frame of the last change to a coarser level or -1 (i64); for each pair of levels a list (u64) of three f64;
+// a list (u64) of f32.
 #include "app/level_state.h"
 
+#include "app/level_rule.h"
 #include "app/run_setup.h"
 #include "sim/byte_stream.h"
 
@@ -16,6 +18,9 @@ std::string LevelState::bytes() const {
     out.u32(std::uint32_t(choice.wanted));
     out.u32(std::uint32_t(choice.calmer));
     out.i64(choice.changedAt);
+    out.u32(std::uint32_t(choice.looks));
+    out.u32(std::uint32_t(choice.patience));
+    out.i64(choice.coarserAt);
     for (const sim::LodDetail& detail : details) {
         out.u64(detail.size());
         for (const glm::dvec3& item : detail)
@@ -37,12 +42,15 @@ std::optional<LevelState> LevelState::parse(std::string_view bytes, const RunPar
     sim::ByteReader in(bytes, 0);
     const std::uint32_t wanted = in.u32(), calmer = in.u32();
     const std::int64_t changedAt = in.i64();
+    const std::uint32_t looks = in.u32(), patience = in.u32();
+    const std::int64_t coarserAt = in.i64();
     const auto isLevel = [&levels](std::uint32_t level) {
         return level >= 1 && level <= std::uint32_t(levels.count());
     };
-    if (!isLevel(wanted) || !isLevel(calmer) || changedAt < 0 || changedAt > frame)
+    if (!isLevel(wanted) || !isLevel(calmer) || changedAt < 0 || changedAt > frame || looks > kMostPatience ||
+        patience < kLeastPatience || patience > kMostPatience || coarserAt < -1 || coarserAt > frame)
         return std::nullopt;
-    state.choice = {int(wanted), int(calmer), int(changedAt)};
+    state.choice = {int(wanted), int(calmer), int(changedAt), int(looks), int(patience), int(coarserAt)};
     bool finite = true;
     for (int level = 1; level < levels.count(); ++level) {
         sim::LodDetail detail(in.count(in.u64(), 24));

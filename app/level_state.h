@@ -14,9 +14,12 @@ namespace serosa::app {
 struct RunParts;
 
 struct LevelChoice {
-    int wanted = 1;    // by the rule (app/level_rule.h), at the last look
-    int calmer = 1;    // by the last look, whatever was made of it
-    int changedAt = 0; // frame of the last change
+    int wanted = 1;     // by the rule (app/level_rule.h), at the last look
+    int calmer = 1;     // by the last look, whatever was made of it
+    int changedAt = 0;  // frame of the last change
+    int looks = 0;      // in a row that asked for a coarser level than the active one
+    int patience = 2;   // so many must
+    int coarserAt = -1; // frame of the last change to a coarser one by the rule; -1: none
 };
 
 struct LevelState {

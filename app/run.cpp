@@ -380,6 +380,7 @@ std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out)
     std::vector<std::string> notes;
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         describeOrgan(parts.scene.organs[i], *parts.organs[i], parts.levels[i], out, notes);
+    notes.insert(notes.end(), parts.toolNotes.begin(), parts.toolNotes.end());
     for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
         notes.push_back(std::move(note));
     for (std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
@@ -441,8 +442,8 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
             out << "note: " << grouped(record.organs[i].invertedCells) << " cells of "
                 << parts.scene.organs[i].name
                 << " were turned inside out at a time; pictures are not to be trusted there: press less "
-                   "deep, or "
-                   "take a finer lattice\n";
+                   "deep, take a finer lattice, or say recovery = true of the tissue, which turns them "
+                   "right again\n";
     for (std::size_t i = 0; i < record.organs.size(); ++i)
         if (record.organs[i].alarm)
             out << "stopped: " << parts.scene.organs[i].name

@@ -5,6 +5,7 @@
 #include "app/material_lines.h"
 #include "app/pose.h"
 #include "app/solver_choice.h"
+#include "app/tool_entry.h"
 #include "shaders/shared_constants.h"
 
 #include <algorithm>
@@ -162,6 +163,9 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     SEROSA_TRY(readSceneAndSurfaces(options, parts));
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(prepareOrgan(parts.scene, parts.scene.organs[i], *parts.organs[i]));
+    parts.toolNotes = bringToolsIn(parts.scene, parts.placedOrgans());
+    for (const auto& organ : parts.organs)
+        organ->setup.tools = parts.scene.tools;
     SEROSA_TRY(prepareCoupling(parts));
     if (options.hands)
         addHands(parts);

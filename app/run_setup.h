@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace serosa::app {
@@ -43,7 +44,8 @@ struct RunParts {
     std::vector<OrganLevels> levels;                 // one an organ: its levels of detail
     CoupledOrgans coupled;                           // those that step together
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
-    std::optional<Hands> hands; // where they were asked for; their tools are the scene's last ones
+    std::vector<std::string> toolNotes; // of tools that would have begun inside (app/tool_entry.h)
+    std::optional<Hands> hands;         // where they were asked for; their tools are the scene's last ones
     std::size_t timesLeftOut =
         0; // of surfaces_at, sheet_at and the like: after the last of the frames that were asked for
 

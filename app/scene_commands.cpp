@@ -119,20 +119,21 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     for (const Derived& organ : organs) {
         faces += organ.surface.file.faces.size();
         nodes += organ.lattice.nodeCount();
-        steps += organ.step.stepsPerFrame;
+        steps = std::max(steps, organ.step.stepsPerFrame);
     }
     for (const sim::Organ& organ : scene.organs)
         implicit += organ.method == sim::StepMethod::implicit;
     out << file.string() << ": ok: " << scene.frames() << " frames, ";
     if (organs.size() > 1)
         out << organs.size() << " organs, ";
-    out << grouped(faces) << " faces, " << grouped(nodes) << " nodes, " << scene.tools.size() << " tools";
+    out << grouped(faces) << " faces, " << grouped(nodes) << " nodes, " << scene.tools.size()
+        << (scene.tools.size() == 1 ? " tool" : " tools");
     if (!scene.bodies.empty())
         out << ", " << scene.bodies.size() << (scene.bodies.size() == 1 ? " body" : " bodies");
     if (!scene.threads.empty())
         out << ", " << scene.threads.size() << (scene.threads.size() == 1 ? " thread" : " threads");
     if (steps > 0)
-        out << ", " << steps << " steps a frame";
+        out << ", " << (organs.size() > 1 ? "up to " : "") << steps << " steps a frame";
     if (implicit > 0)
         out << " (" << implicit << " implicit)";
     out << "\n";

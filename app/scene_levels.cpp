@@ -70,6 +70,9 @@ void ScenePlayer::changeLevel(std::size_t i, int level, const std::vector<glm::d
     guards_[i]->restart(frame_);
     guards_[i]->carry(std::move(loads));
     levelChoices_[i].changedAt = frame_;
+    levelChoices_[i].looks = 0;
+    if (level > changes_[i].back().level && parts_.scene.organs[i].levelsByRule)
+        levelChoices_[i].coarserAt = frame_;
     changes_[i].push_back({frame_, level});
 }
 
@@ -79,12 +82,21 @@ void ScenePlayer::lookAtLevels() {
         if (!organ.levelsByRule || parts_.levels[i].count() == 1 || guards_[i]->frozen())
             continue;
         const OrganParts& now = *parts_.organs[i];
-        const int level = ruledLevel(
+        const RuledLevel asked = ruledLevel(
             {&parts_.scene, &organ, parts_.levels[i].finest(parts_, i), double(now.step.stepsPerFrame)},
             now.lattice, guards_[i]->lastGood(), frame_);
         LevelChoice& choice = levelChoices_[i];
         const int active = parts_.levels[i].active();
-        choice.wanted = level <= active ? level : std::max(active, std::min(level, choice.calmer));
+        const int level = asked.level;
+        if (level < active && !asked.disturbed && choice.coarserAt >= 0 &&
+            frame_ - choice.coarserAt <= kSettleFrames) { // the switch itself set it in motion
+            choice.patience = std::min(2 * choice.patience, kMostPatience);
+            choice.coarserAt = -1;
+        }
+        choice.looks = level > active ? std::min(choice.looks + 1, kMostPatience) : 0;
+        choice.wanted = level <= active                   ? level
+                        : choice.looks >= choice.patience ? std::max(active, std::min(level, choice.calmer))
+                                                          : active;
         choice.calmer = level;
     }
 }

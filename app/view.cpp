@@ -323,6 +323,8 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
         parts.renderer->resize(size.x, size.y);
     const InterruptGuard interrupt;
     View view(parts, *window, options, out);
+    for (const std::string& note : parts.toolNotes)
+        out << "note: " << note << std::endl;
     for (const std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
         out << "note: " << note << std::endl;
     for (const std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))

@@ -125,7 +125,7 @@ std::vector<SceneKey> generalKeys() {
             "organ", "tear_strain", Kind::number, kPositive, "",
             "springs longer than (1 + this) times their rest length tear, frame by frame; not beside a pose"),
         plain("organ", "self_contact", Kind::boolean, kAny, "false",
-              "parts of it that meet push each other; not beside a pose"),
+              "parts of it that meet push each other: steps take some 25 times as long; not beside a pose"),
         plain("organ", "tissue", Kind::table, kAny, "", "what it is made of"),
         plain("organ", "material", Kind::tables, kAny, "",
               "further materials, at most 15 (see Materials above); not beside a pose"),

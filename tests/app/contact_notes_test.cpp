@@ -1,6 +1,7 @@
 // What is said of tools and bodies before a run: who begins inside of an organ, and grasps on the same nodes.
 
 #include "app/contact_notes.h"
+#include "app/tool_entry.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
@@ -53,8 +54,16 @@ TEST_F(ContactNotes, NameToolsAndBodiesThatBeginInside) {
     EXPECT_EQ(notes()[0].rfind("probe begins inside of cube, ", 0), 0u) << notes()[0];
     const double deep = std::stod(notes()[0].substr(notes()[0].find("cube, ") + 6));
     EXPECT_NEAR(deep, 5, 1);
+    EXPECT_NE(notes()[0].find("comes in from outside"), std::string::npos);
     scene_.tools[0].mode = sim::ToolMode::grasp;
     EXPECT_TRUE(notes().empty()) << "grasps are there to be inside";
+    scene_.tools[0].keys[0].at = {0.2, 0.2, 0.2};
+    ASSERT_EQ(notes().size(), 1u);
+    EXPECT_NE(notes()[0].find("where no node rests"), std::string::npos) << notes()[0];
+    scene_.tools[0].keys[0].at = {0, 0, 0};
+    scene_.tools[0].radius = 0.001; // node 0
+    ASSERT_EQ(notes().size(), 1u);
+    EXPECT_NE(notes()[0].find("on fixed nodes alone"), std::string::npos) << notes()[0];
 
     scene_.tools.clear();
     sim::Body table;
@@ -109,6 +118,33 @@ TEST_F(ContactNotes, TwoGraspsOnTheSameNodesAreRefused) {
     // Fixed nodes are nobody's.
     fixed_.assign(fixed_.size(), true);
     EXPECT_FALSE(refused());
+}
+
+// It begins clear of the organ, comes to its place evenly, and is where its keys say from then on.
+TEST_F(ContactNotes, AToolThatWouldBeginInsideComesInFromOutside) {
+    sim::Tool probe;
+    probe.name = "probe";
+    probe.radius = 0.01;
+    probe.keys = {{0, {0.03, 0.05, 0.03}}, {0.1, {0.03, 0.06, 0.03}}, {2, {0.03, 0.04, 0.03}}};
+    sim::Tool beside = probe;
+    beside.keys = {{0, {0.03, 0.09, 0.03}}};
+    scene_.tools = {probe, beside};
+    const auto entry = toolEntry(probe, placed());
+    ASSERT_TRUE(entry);
+    EXPECT_NEAR(entry->deep, 0.02, 0.003) << "as the nodes have it";
+    EXPECT_NEAR(entry->offset.y, 0.025, 0.006) << "the shortest way: up";
+    EXPECT_NEAR(glm::length(entry->offset), entry->offset.y, 1e-12);
+    EXPECT_NEAR(entry->time, glm::length(entry->offset) / (6 * 0.01), 1e-12);
+    const std::vector<std::string> said = bringToolsIn(scene_, placed());
+    ASSERT_EQ(said.size(), 1u);
+    const sim::Tool& now = scene_.tools[0];
+    EXPECT_LT(depthInside(now.wholeShape(), now.poseAt(0), lattice_), 0);
+    for (const double time : {0.0, 0.05, 0.1, 0.2, 0.3, 1.0, 3.0}) {
+        const glm::dvec3 by = entry->offset * std::max(0.0, 1 - time / entry->time);
+        EXPECT_LT(glm::distance(now.poseAt(time).at, probe.poseAt(time).at + by), 1e-12) << time;
+    }
+    EXPECT_EQ(scene_.tools[1].keys.size(), 1u) << "the other one is as it was";
+    EXPECT_TRUE(bringToolsIn(scene_, placed()).empty()) << "once";
 }
 
 } // namespace

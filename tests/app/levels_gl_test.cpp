@@ -193,6 +193,25 @@ TEST_P(GlLevels, FollowTheRule) {
     EXPECT_LT(changes(player).back().first, 55);
 }
 
+// A coarse lattice rests elsewhere: each switch sets the organ in motion, which asks for the finer one again.
+// The rule must wait longer and longer, and not keep it in motion.
+TEST_P(GlLevels, LetAnOrganComeToRest) {
+    if (GetParam() != std::string("cpu"))
+        return; // the rule is the same for all
+    const auto made =
+        parts("schema = 1\nduration = \"6 s\"\n[[body]]\nkind = \"floor\"\nheight = \"-50 mm\"\n" +
+              std::string(kOrgan).substr(std::string(kOrgan).find("[[organ]]")) +
+              "levels = 3\nlevel_of_detail = \"auto\"\n[organ.tissue]\nyoung = \"3 kPa\"\n" + kSmall);
+    ScenePlayer player(*made);
+    play(player, 360);
+    const Changes all = changes(player);
+    ASSERT_GT(all.size(), 2u) << "it does switch";
+    EXPECT_LT(all.size(), 10u);
+    const auto late =
+        std::count_if(all.begin(), all.end(), [](const auto& change) { return change.first > 240; });
+    EXPECT_LE(late, 1);
+}
+
 TEST_P(GlLevels, RefuseWhatHoldsNothingOnACoarseLattice) {
     folder_.write("scene.toml", std::string(kOrgan) + kScript +
                                     "[[organ.fixed]]\nshape = \"sphere\"\ncentre = [\"3 mm\", \"48 mm\", \"5 "
