@@ -14,8 +14,8 @@ namespace serosa::render {
 
 namespace {
 
-constexpr std::size_t kTriangles = 256;  // a cluster
-constexpr double kMargin = 0.35;         // rad: what deformation may add to the lean of a triangle
+constexpr double kLeastMean = 0.3; // length of the mean of unit normals that still says where a cluster faces
+constexpr double kMargin = 0.35;   // rad: what deformation may add to the lean of a triangle
 constexpr std::size_t kCommandWords = 5; // of DrawElementsIndirectCommand
 
 } // namespace
@@ -28,33 +28,32 @@ Result<SurfaceClusters> SurfaceClusters::create(const sim::Lattice& lattice, con
     SEROSA_ASSIGN(made.program_, gpu::Program::create(gpu::ShaderLibrary(), {"surface_cull.comp"}));
     const std::vector<std::uint32_t> packed = sim::restState(lattice).normals;
     std::vector<std::uint32_t> texels;
-    for (std::size_t begin = 0; begin < faces.size(); begin += kTriangles) {
-        const std::size_t end = std::min(begin + kTriangles, faces.size());
+    for (std::size_t begin = 0; begin < faces.size(); begin += kClusterTriangles) {
+        const std::size_t end = std::min(begin + kClusterTriangles, faces.size());
         std::set<std::uint32_t> nodes;
-        double reach = 0,
-               lean = 1; // cosine of the largest angle between a triangle and a node that carries it
-        for (std::size_t f = begin; f < end; ++f) {
-            const glm::dvec3 cross = glm::cross(positions[faces[f].y] - positions[faces[f].x],
-                                                positions[faces[f].z] - positions[faces[f].x]);
-            const double area = glm::length(cross);
+        double reach = 0;
+        for (std::size_t f = begin; f < end; ++f)
             for (int i = 0; i < 3; ++i) {
                 const VertexBinding& vertex = binding.vertices[faces[f][i]];
                 reach = std::max(reach, double(glm::length(vertex.offset)));
-                for (int k = 0; k < 3; ++k) {
-                    nodes.insert(vertex.nodes[k]);
-                    if (area > 0)
-                        lean =
-                            std::min(lean, glm::dot(cross / area,
-                                                    glm::dvec3(sim::unpackNormal(packed[vertex.nodes[k]]))));
-                }
+                nodes.insert({vertex.nodes.x, vertex.nodes.y, vertex.nodes.z});
             }
+        glm::dvec3 mean(0); // of the nodes' normals, each step of the lattice's stairs against the next
+        for (const std::uint32_t node : nodes) {
+            texels.push_back(layout.texelOfNode[node].y << 16 | layout.texelOfNode[node].x);
+            mean += glm::dvec3(sim::unpackNormal(packed[node]));
+        }
+        double lean = glm::length(mean) > kLeastMean * double(nodes.size()) ? 1 : -1; // cosine
+        for (std::size_t f = begin; f < end; ++f) {
+            const glm::dvec3 cross = glm::cross(positions[faces[f].y] - positions[faces[f].x],
+                                                positions[faces[f].z] - positions[faces[f].x]);
+            if (const double size = glm::length(cross) * glm::length(mean); size > 0)
+                lean = std::min(lean, glm::dot(cross, mean) / size);
         }
         const double most = std::acos(std::clamp(lean, -1.0, 1.0)) + kMargin;
         made.clusters_.push_back({std::uint32_t(3 * begin), std::uint32_t(3 * (end - begin)),
-                                  std::uint32_t(texels.size()), std::uint32_t(nodes.size()), float(reach),
-                                  most < 1.5 ? float(-std::sin(most)) : -2.0F});
-        for (const std::uint32_t node : nodes)
-            texels.push_back(layout.texelOfNode[node].y << 16 | layout.texelOfNode[node].x);
+                                  std::uint32_t(texels.size() - nodes.size()), std::uint32_t(nodes.size()),
+                                  float(reach), most < 1.5 ? float(-std::sin(most)) : -2.0F});
     }
     made.clusterBuffer_ = gpu::Buffer("surface clusters", std::span<const SurfaceCluster>(made.clusters_));
     made.nodes_ = gpu::Buffer("nodes of surface clusters", std::span<const std::uint32_t>(texels));

@@ -2,7 +2,8 @@
 // Skips hidden work (MS05 3.6): the detailed surface in clusters of triangles, each with the lattice's nodes
 // that carry it. Before it is drawn a pass looks at these nodes alone: a cluster whose nodes lie outside the
 // view, or face away from the eye by more than its triangles can lean, is not drawn. What a cluster's
-// triangles lean against their nodes' normals is measured at rest; a margin covers what deformation adds.
+// triangles lean against the mean of their nodes' normals is measured at rest; a margin covers what
+// deformation adds.
 
 #include "base/result.h"
 #include "gpu/program.h"
@@ -19,8 +20,10 @@ struct SurfaceCluster {         // as shaders/surface_cull.comp
     std::uint32_t first, count; // of the index buffer
     std::uint32_t node, nodes;  // of SurfaceClusters' list
     float reach;                // lattice units: longest offset of a vertex from its nodes' triangle
-    float facing; // skipped where all nodes' normals have less than this towards the eye; -2: never
+    float facing; // skipped where the nodes' mean normal has less than this towards the eye; -2: never
 };
+
+constexpr std::size_t kClusterTriangles = 256; // at most
 
 class SurfaceClusters {
 public:

@@ -180,6 +180,7 @@ void SurfacePasses::setIndices(const std::vector<std::uint32_t>& indices) {
     levels_.push_back({gpu::Buffer("surface indices", std::span<const std::uint32_t>(indices)),
                        int(indices.size()),
                        0,
+                       {},
                        {}});
 }
 

@@ -158,6 +158,7 @@ private:
         int count = 0;
         double error = 0; // lattice units, from the surface
         std::optional<SurfaceClusters> clusters;
+        gpu::Buffer clusterIndices; // the same triangles, cluster after cluster
     };
     std::vector<Level> levels_;             // the first is the whole surface, or what cuts left of it
     std::size_t lastLevel_ = 0;             // that was drawn

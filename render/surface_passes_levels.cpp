@@ -6,11 +6,41 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
+#include <map>
+
 namespace serosa::render {
 
 namespace {
 
 constexpr std::size_t kLeastForClusters = 2000; // faces: fewer are drawn faster than asked for
+
+/// Triangles that lie together one after another, each cluster in the order that suits the vertex cache.
+std::vector<std::uint32_t> inClusters(const std::vector<std::uint32_t>& indices,
+                                      const std::vector<glm::vec3>& positions) {
+    std::vector<std::uint32_t> sorted(indices.size());
+    meshopt_spatialSortTriangles(sorted.data(), indices.data(), indices.size(), &positions[0].x,
+                                 positions.size(), sizeof(glm::vec3));
+    std::vector<std::uint32_t> run, ordered;
+    for (std::size_t begin = 0; begin < sorted.size(); begin += 3 * kClusterTriangles) {
+        const std::size_t end = std::min(begin + 3 * kClusterTriangles, sorted.size());
+        std::map<std::uint32_t, std::uint32_t>
+            local; // the optimizer counts all vertices: a cluster's own only
+        std::vector<std::uint32_t> global;
+        run.clear();
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto [found, fresh] = local.try_emplace(sorted[i], std::uint32_t(global.size()));
+            if (fresh)
+                global.push_back(sorted[i]);
+            run.push_back(found->second);
+        }
+        ordered.resize(run.size());
+        meshopt_optimizeVertexCache(ordered.data(), run.data(), run.size(), global.size());
+        for (std::size_t i = begin; i < end; ++i)
+            sorted[i] = global[ordered[i - begin]];
+    }
+    return sorted;
+}
 
 } // namespace
 
@@ -29,11 +59,15 @@ Status SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::Trian
         levels_.push_back({gpu::Buffer("surface indices", std::span<const std::uint32_t>(ordered)),
                            int(ordered.size()),
                            lod.error / lattice.spacing,
+                           {},
                            {}});
     }
     std::vector<std::uint32_t> meshVertex(newIndex_.size());
-    for (std::size_t i = 0; i < newIndex_.size(); ++i)
+    std::vector<glm::vec3> bufferPositions(newIndex_.size());
+    for (std::size_t i = 0; i < newIndex_.size(); ++i) {
         meshVertex[newIndex_[i]] = drawn_.origin[i];
+        bufferPositions[newIndex_[i]] = glm::vec3(lattice.toLattice(positions[i]));
+    }
     for (Level& level : levels_) {
         if (std::size_t(level.count) < 3 * kLeastForClusters)
             continue;
@@ -41,6 +75,8 @@ Status SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::Trian
         own.resize(std::size_t(level.count));
         if (&level != &levels_.front())
             level.indices.download(0, own.size() * sizeof own[0], own.data());
+        own = inClusters(own, bufferPositions);
+        level.clusterIndices = gpu::Buffer("surface indices", std::span<const std::uint32_t>(own));
         std::vector<glm::uvec3> faces;
         for (std::size_t i = 0; i < own.size(); i += 3)
             faces.emplace_back(meshVertex[own[i]], meshVertex[own[i + 1]], meshVertex[own[i + 2]]);
@@ -72,7 +108,7 @@ void SurfacePasses::drawClusters(const sim::StateTextures& state, const Frame& f
     drawn.clusters->cull(state, frame);
     program.use();
     gpu::VertexArray& array = geometry_.at(stage).array;
-    array.indices(drawn.indices);
+    array.indices(drawn.clusterIndices);
     glBindVertexArray(array.id());
     drawn.clusters->draw();
     lastCulled_ = level;

@@ -20,8 +20,8 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kShadowSide = 2048;        // texels
-constexpr double kOcclusionReach = 0.06; // of the organs' diagonal
+constexpr int kShadowSide = 2048;       // texels
+constexpr double kOcclusionReach = 0.1; // of the organs' diagonal
 
 struct DrawnOrgan {
     sim::Lattice placement; // spacing and origin only: metres from lattice units

@@ -46,9 +46,9 @@ Sample heartMuscle(const glm::dvec2& at, double tile) {
     };
     const double bundle = ridge(fibres(7, 0.8, 1)), fine = ridge(fibres(3, 0.3, 2)), pale = fibres(10, 2, 3);
     Sample s;
-    s.height = 0.65 * bundle * bundle + 0.25 * fine + 0.1 * (0.5 + 0.5 * wave);
+    s.height = 0.25 + 0.28 * bundle * bundle + 0.08 * fine + 0.3 * (0.5 + 0.5 * wave);
     const double light =
-        std::clamp(0.25 + 0.45 * bundle * bundle + 0.25 * fine * fine + 0.25 * wave, 0.0, 1.0);
+        std::clamp(0.35 + 0.28 * bundle * bundle + 0.10 * fine * fine + 0.3 * wave, 0.0, 1.0);
     s.albedo = glm::mix(glm::dvec3(0.20, 0.022, 0.018), glm::dvec3(0.43, 0.095, 0.070), light);
     s.albedo = glm::mix(s.albedo, glm::dvec3(0.52, 0.22, 0.15), 0.35 * step(0.35, 0.9, pale)); // fascia
     s.roughness = 0.34 + 0.12 * fine;

@@ -37,20 +37,29 @@ bool outside(vec3 low, vec3 high) {
     return beyond != vec4(0.0) || behind || farther;
 }
 
+vec4 nodeOf(uint place) {
+    uint texel = texels[place];
+    return texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= uint(u_clusters))
         return;
     Cluster cluster = clusters[i];
     vec3 low = vec3(1e30), high = vec3(-1e30);
-    float towards = -1.0; // the most that a node faces the eye
+    vec3 normal = vec3(0.0);
     for (uint k = 0u; k < cluster.nodes; ++k) {
-        uint texel = texels[cluster.node + k];
-        vec4 node = texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0);
+        vec4 node = nodeOf(cluster.node + k);
         low = min(low, node.xyz);
         high = max(high, node.xyz);
-        vec3 eye = normalize(u_eye.xyz - node.xyz * u_eye.w);
-        towards = max(towards, dot(unpackNormal(floatBitsToUint(node.w)), eye));
+        normal += unpackNormal(floatBitsToUint(node.w));
+    }
+    normal = normalize(normal);
+    float towards = -1.0; // the most that it faces the eye, seen from any of the nodes
+    for (uint k = 0u; k < cluster.nodes; ++k) {
+        vec3 at = nodeOf(cluster.node + k).xyz;
+        towards = max(towards, dot(normal, normalize(u_eye.xyz - at * u_eye.w)));
     }
     bool hidden = towards < cluster.facing || outside(low - cluster.reach, high + cluster.reach);
     draws[i] = Draw(hidden ? 0u : cluster.count, hidden ? 0u : 1u, cluster.first, 0, 0u);

@@ -37,8 +37,10 @@ vec2 toolShade(vec3 position, vec3 n) {
 vec3 tissueLight(Tissue t, vec3 v) {
     vec3 n = t.normal;
     vec2 shade = toolShade(t.position, t.film);
+    // What faces away from the lamp has no shadow to get: its light came through the tissue.
+    float facing = smoothstep(-0.05, 0.30, dot(t.film, u_toKey));
     if (u_shadows)
-        shade.y = lampLight(t.position, t.film);
+        shade.y = facing > 0.0 ? mix(1.0, lampLight(t.position, t.film), facing) : 1.0;
     if (u_occlusion)
         t.open *= texelFetch(t_occlusion, ivec2(gl_FragCoord.xy), 0).x;
     float open = t.open * shade.x, ndl = dot(n, u_toKey), ndv = max(dot(t.film, v), 0.02);

@@ -152,8 +152,10 @@ TEST_F(GlLook, OcclusionDarkensWhatLiesCloseTogether) {
     prepare(32);
     DrawnShape block;
     block.shape.kind = sim::ShapeKind::box;
-    block.shape.halfSize = {1.2 * kRadius, 0.2 * kRadius, 1.2 * kRadius};
-    block.pose.at = middle_ - glm::dvec3(0, 1.1 * kRadius, 0);
+    block.shape.halfSize = {0.2 * kRadius, 1.2 * kRadius, 1.2 * kRadius}; // a wall to the left
+    block.pose.at = middle_ - glm::dvec3(1.15 * kRadius, 0, 0);
+    camera_.direction = {-0.3, 0, -1};
+    view_.camera = makeCamera(camera_, mesh_.lowest(), mesh_.highest(), 1);
     view_.shapes = {block};
     const Image without = draw();
     view_.look.occlusion = true;
