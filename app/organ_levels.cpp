@@ -37,7 +37,7 @@ Status OrganLevels::prepare(const RunOptions& options, RunParts& parts, std::siz
         SEROSA_TRY(makeOrganSolver(options, false, *made));
         made->binding = render::bindSurface(made->lattice, made->surface.metres, parts.surfaceMapping());
         SEROSA_TRY(parts.renderer->addLevel(organ, made->lattice, made->surface.metres, made->binding,
-                                            made->textures()));
+                                            made->textures(), own.detail ? &*own.detail : nullptr));
         made->surface = {}; // one of them is enough: it goes with the active level
         levels.lines_.push_back("level " + std::to_string(level) + ": " + grouped(made->lattice.nodeCount()) +
                                 " nodes, spacing " + shortNumber(1e3 * made->lattice.spacing) + " mm, " +

@@ -27,6 +27,8 @@ std::string scenePosition(const std::filesystem::path& scene, int line) {
 Result<sim::RepairedMesh> readSolid(const std::filesystem::path& file, bool repair) {
     SEROSA_ASSIGN(sim::TriangleMesh mesh, sim::readMesh(file));
     if (repair)
+        mesh.uvs.clear(); // faces come and go
+    if (repair)
         return sim::repairMesh(std::move(mesh), file.string());
     if (const Status closed = sim::checkClosedSolid(mesh, file.string()); !closed.ok())
         return sim::withRepairHint(closed.error(), mesh);

@@ -16,8 +16,8 @@ bool isResult(const std::string& name) {
     };
     return framed("frame_", ".png") || framed("surface_", ".ply") || framed("snapshot_", ".serosa") ||
            framed("displacement_", ".ply") || framed("displacement_", ".nrrd") ||
-           framed("displacement_", ".mha") || name == "contact_sheet.png" || name == "summary.json" ||
-           name == "report.html";
+           framed("displacement_", ".mha") || name == "contact_sheet.png" || name == "turntable.png" ||
+           name == "summary.json" || name == "report.html";
 }
 
 fs::path parentOf(const fs::path& path) {

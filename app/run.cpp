@@ -27,6 +27,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <ostream>
 #include <set>
 
@@ -140,6 +141,27 @@ public:
             return {};
         const render::Image sheet = render::contactSheet(tiles_, captions_, parts_.scene.output.sheetColumns);
         return render::writePng(sheet, folder_.file("contact_sheet.png"));
+    }
+
+    /// Views around the organs as they lie now, on a sheet of their own.
+    Status turntable() {
+        const int views = parts_.scene.output.turntable;
+        if (views == 0)
+            return {};
+        std::vector<render::Image> tiles;
+        std::vector<std::string> captions;
+        const render::CameraView camera = camera_;
+        for (int i = 0; i < views; ++i) {
+            const double share = double(i) / views;
+            camera_ = render::carriedAround(camera, 0.5 * (parts_.lowest() + parts_.highest()),
+                                            2 * std::numbers::pi * share);
+            drawScene(player_.frame());
+            tiles.push_back(render::shrink(parts_.renderer->readImage(), kTileWidth));
+            captions.push_back(std::to_string(std::lround(360 * share)) + " deg");
+        }
+        camera_ = camera;
+        const render::Image sheet = render::contactSheet(tiles, captions, parts_.scene.output.sheetColumns);
+        return render::writePng(sheet, folder_.file("turntable.png"));
     }
 
     /// report.html of `summary`, with pictures that were written before.
@@ -425,6 +447,7 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
     const InterruptGuard interrupt;
     SEROSA_TRY(run.frames(interrupt));
     SEROSA_TRY(run.contactSheet());
+    SEROSA_TRY(run.turntable());
     totalWatch.reset();
     RunRecord& record = run.record();
     record.times.setup = times.setup;

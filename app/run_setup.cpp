@@ -70,6 +70,17 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
     return applyOverrides(options, parts.scene, parts.timesLeftOut);
 }
 
+/// The texture that an organ's look asks for. Errors: of the pictures.
+Result<std::optional<render::SurfaceDetail>> organDetail(const sim::Organ& organ,
+                                                         const std::filesystem::path& scene) {
+    std::optional<render::SurfaceDetail> detail;
+    if (organ.look.textured()) {
+        SEROSA_ASSIGN(render::TissueMaps maps, render::tissueMaps(organ.look, scene));
+        detail = render::SurfaceDetail{std::move(maps), organ.look.tile, organ.look.relief};
+    }
+    return detail;
+}
+
 } // namespace
 
 Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts& parts) {
@@ -174,18 +185,24 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     for (std::size_t i = 0; i < parts.organs.size(); ++i) {
         OrganParts& organ = *parts.organs[i];
         SEROSA_TRY(makeOrganSolver(options, parts.scene.organs[i].pose.has_value(), organ));
+        SEROSA_ASSIGN(organ.detail, organDetail(parts.scene.organs[i], parts.scene.file));
+        const render::SurfaceDetail* detail = organ.detail ? &*organ.detail : nullptr;
         organ.binding = render::bindSurface(organ.lattice, organ.surface.metres, parts.surfaceMapping());
         if (i > 0) {
             SEROSA_TRY(parts.renderer->addOrgan(organ.lattice, organ.surface.metres, organ.binding,
-                                                organ.textures()));
+                                                organ.textures(), detail));
             continue;
         }
         SEROSA_ASSIGN(render::SurfaceRenderer renderer,
                       render::SurfaceRenderer::create(organ.lattice, organ.surface.metres, organ.binding,
                                                       organ.textures(), parts.scene.output.width,
-                                                      parts.scene.output.height));
+                                                      parts.scene.output.height, detail));
         parts.renderer.emplace(std::move(renderer));
     }
+    for (std::size_t i = 0; i < parts.organs.size() && !parts.scene.cuts.empty(); ++i)
+        if (parts.organs[i]->solver)
+            SEROSA_TRY(parts.renderer->prepareCuts(i, parts.organs[i]->lattice,
+                                                   parts.organs[i]->textures().layout()));
     SEROSA_TRY(makeGroup(parts));
     parts.levels.resize(parts.organs.size());
     for (std::size_t i = 0; i < parts.organs.size(); ++i)

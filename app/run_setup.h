@@ -8,6 +8,7 @@
 #include "app/organ_levels.h"
 #include "app/organ_setup.h"
 #include "app/run.h"
+#include "render/surface_passes.h"
 #include "render/surface_renderer.h"
 #include "sim/solver.h"
 #include "sim/state_textures.h"
@@ -27,8 +28,9 @@ struct OrganParts {
     sim::SolverSetup setup; // points at `lattice`
     sim::StableStep step;   // zero for a pose
     render::SurfaceBinding binding;
-    std::unique_ptr<sim::Solver> solver;        // null for a pose
-    std::optional<sim::StateTextures> uploaded; // where the solver has no textures of its own
+    std::optional<render::SurfaceDetail> detail; // its texture, if its look asks for one
+    std::unique_ptr<sim::Solver> solver;         // null for a pose
+    std::optional<sim::StateTextures> uploaded;  // where the solver has no textures of its own
 
     OrganParts() = default;
     OrganParts(const OrganParts&) = delete;

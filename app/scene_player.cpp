@@ -50,12 +50,23 @@ void ScenePlayer::cut(std::size_t i) {
         tear.continues = strokes.empty() && !cuts_[i].entries().empty();
         strokes.push_back(tear);
     }
+    const auto sweeps = [](const sim::Stroke& stroke) { return stroke.kind != sim::StrokeKind::tear; };
+    if (organ.uploaded && std::any_of(strokes.begin(), strokes.end(), sweeps))
+        organ.uploaded->upload(organ.solver->state()); // the mask is painted by the state as it is cut
     for (const sim::Stroke& stroke : strokes) {
+        const Status painted = parts_.renderer->paintCut(i, organ.lattice, organ.textures(), stroke);
+        SEROSA_CHECK(painted.ok(), "prepareRun made the mask");
         const Status done = cuts_[i].cut(*organ.solver, step, stroke);
         SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
     }
     if (!strokes.empty())
         showCuts(i);
+}
+
+void ScenePlayer::setCutMask(std::size_t i, std::string_view bytes) {
+    const OrganParts& organ = *parts_.organs[i];
+    const Status done = parts_.renderer->restoreCuts(i, organ.lattice, organ.textures(), bytes);
+    SEROSA_CHECK(done.ok(), "a snapshot of this scene");
 }
 
 void ScenePlayer::showCuts(std::size_t i) {
@@ -136,6 +147,7 @@ void ScenePlayer::reset() {
             organ.solver->setState(sim::startState(organ.setup));
             organ.solver->forgetCuts();
             cuts_[i].clear();
+            setCutMask(i, {});
             showCuts(i);
             startLevel(i);
             if (guards_[i])

@@ -13,6 +13,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace serosa::app {
@@ -86,6 +87,8 @@ private:
 
     /// The scene's cuts and tears of the frame that ends now.
     void cut(std::size_t organ);
+    /// What the renderer's mask holds (SurfaceRenderer::saveCuts); empty: nothing is cut.
+    void setCutMask(std::size_t organ, std::string_view bytes);
     /// Lets the renderer draw what cuts left, if they changed anything. Reads the bits back (stalls).
     void showCuts(std::size_t organ);
 

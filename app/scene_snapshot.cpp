@@ -124,6 +124,9 @@ Status checkStart(const sim::Snapshot& snapshot, const RunOptions& options, RunP
         if (!LevelState::parse(saved.levelState, parts, i, int(snapshot.frame)))
             return Error{name + saved.name +
                          ": what it says of levels of detail makes no sense: write the snapshot again"};
+        if (!parts.renderer->restoreCuts(i, organ.lattice, organ.textures(), saved.cutMask).ok())
+            return Error{name + saved.name +
+                         ": its mask of what was cut makes no sense: write the snapshot again"};
     }
     if (snapshot.threads.size() != parts.coupled.threads.size())
         return Error{name + "belongs to another scene: it has " + std::to_string(snapshot.threads.size()) +
@@ -188,6 +191,7 @@ sim::Snapshot ScenePlayer::snapshot() {
         organ.lastCut = lastCut_[i];
         organ.level = std::uint32_t(parts_.levels[i].active());
         organ.levelState = levelState(i).bytes();
+        organ.cutMask = parts_.renderer->saveCuts(i);
         if (parts.solver) {
             sim::takeSnapshot(*parts.solver, organ);
         } else {
@@ -214,6 +218,7 @@ void ScenePlayer::restore(const sim::Snapshot& snapshot) {
         if (parts.solver) {
             const Status done = sim::restoreSnapshot(organ, *parts.solver);
             SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
+            setCutMask(i, organ.cutMask);
             showCuts(i);
             if (guards_[i])
                 guards_[i]->restart(frame_);

@@ -49,6 +49,9 @@ Status benchCompute(const Options& options, Report& report);
 /// mapping_over_static, corrected_over_constant(_frame), vertex fetch against readback, and MS05's own table
 /// (bench/mapping_cases.cpp).
 Status benchMapping(const Options& options, Report& report);
+/// Skipping hidden clusters and levels of detail of a surface of a million faces; textures, shadows,
+/// occlusion (bench/look_cases.cpp).
+Status benchLook(const Options& options, Report& report);
 /// What fills, normals, damping, the volumetric term, materials, cuts and tools cost as shares of a step, and
 /// what a stroke takes (bench/tissue_cases.cpp).
 Status benchTissue(const Options& options, Report& report);

@@ -16,11 +16,11 @@ struct Group {
     Status (*run)(const Options&, Report&);
 };
 constexpr Group kGroups[] = {
-    {"solver", benchSolver},   {"cpu", benchCpu},         {"compute", benchCompute},
-    {"tissue", benchTissue},   {"contact", benchContact}, {"realtime", benchRealtime},
-    {"mapping", benchMapping}, {"lod", benchLod},         {"growth", benchGrowth},
-    {"gpu", benchGpu},         {"large", benchLarge},     {"implicit", benchImplicit},
-    {"rivals", benchRivals}};
+    {"solver", benchSolver},     {"cpu", benchCpu},         {"compute", benchCompute},
+    {"tissue", benchTissue},     {"contact", benchContact}, {"realtime", benchRealtime},
+    {"mapping", benchMapping},   {"look", benchLook},       {"lod", benchLod},
+    {"growth", benchGrowth},     {"gpu", benchGpu},         {"large", benchLarge},
+    {"implicit", benchImplicit}, {"rivals", benchRivals}};
 
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {

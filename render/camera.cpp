@@ -83,4 +83,14 @@ CameraView makeCamera(const sim::Camera& settings, const glm::dvec3& lowest, con
     return view;
 }
 
+CameraView carriedAround(const CameraView& camera, const glm::dvec3& middle, double angle) {
+    glm::dmat4 turn = glm::translate(glm::dmat4(1), middle); // of the world, the other way
+    turn = glm::rotate(turn, -angle, glm::dvec3(0, 1, 0));
+    turn = glm::translate(turn, -middle);
+    CameraView carried = camera;
+    carried.cameraFromWorld = camera.cameraFromWorld * turn;
+    carried.eye = glm::dvec3(glm::inverse(turn) * glm::dvec4(camera.eye, 1));
+    return carried;
+}
+
 } // namespace serosa::render

@@ -19,4 +19,8 @@ struct CameraView {
 CameraView makeCamera(const sim::Camera& settings, const glm::dvec3& lowest, const glm::dvec3& highest,
                       double aspect);
 
+/// The camera carried around the upright axis through a point (m, world) by an angle, rad: it looks at the
+/// same things from another side.
+CameraView carriedAround(const CameraView& camera, const glm::dvec3& middle, double angle);
+
 } // namespace serosa::render

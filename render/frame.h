@@ -20,6 +20,13 @@ struct Frame {
     glm::vec3 toKey{0, 1, 0}, toBack{0, 1, 0};
     float key = 1, ambient = 1;
     std::vector<glm::vec4> shades; // balls that keep light off the tissue: centre, radius, lattice units
+    const gpu::Texture2D* shadow = nullptr;    // depth map of the key lamp; null: it throws no shadows
+    glm::mat4 shadowFromLattice{1};            // its clip space
+    float shadowTexel = 0;                     // lattice units
+    const gpu::Texture2D* occlusion = nullptr; // of the picture's size; null: none is found in it
+    bool cull = false;                         // skip clusters of the surface that cannot be seen
+    float mostError = 0;  // pixels: what a level of detail of the surface may be off by; 0: the whole surface
+    bool blood = true;    // beside cuts
     glm::vec4 section{0}; // plane, lattice units: the surface is drawn where it is positive; 0: all is
 
     void setLight(gpu::Program& program) const {

@@ -81,8 +81,9 @@ Status writePng(const Image& image, const std::filesystem::path& file) {
 }
 
 Result<Image> readPng(const std::filesystem::path& file) {
+    std::error_code code;
     std::ifstream in(file, std::ios::binary);
-    if (!in)
+    if (!in || std::filesystem::is_directory(file, code))
         return Error{file.string() + ": cannot be opened; check that the file exists and may be read"};
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     png_image png{};

@@ -4,14 +4,26 @@
 
 #include "base/result.h"
 #include "gpu/program.h"
+#include "render/cut_mask.h"
+#include "render/cut_surface.h"
 #include "render/frame.h"
 #include "render/surface_binding.h"
+#include "render/surface_clusters.h"
+#include "render/surface_seams.h"
+#include "render/surface_vertices.h"
+#include "render/tissue_texture.h"
 #include "sim/state_textures.h"
 
 #include <map>
 #include <optional>
 
 namespace serosa::render {
+
+/// A texture, and its size on the organ.
+struct SurfaceDetail {
+    TissueMaps maps;
+    double tile = 0, relief = 0; // m
+};
 
 enum class SurfaceStage { undeformed, constant, corrected, nodes };
 
@@ -20,8 +32,10 @@ inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behi
 
 class SurfacePasses {
 public:
+    /// \param detail null: no texture
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
+                                        const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                        const SurfaceDetail* detail = nullptr);
 
     using Programs = std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program>;
     /// The drawing programs from another source. Errors: as gpu::Program::create.
@@ -32,8 +46,14 @@ public:
     /// \param bare linear colour of a boundary that has none of its own (stage nodes).
     void draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
               sim::SurfaceColour colour, const glm::vec3& bare = kFleshColour);
+    /// Its depth alone, into the bound target.
+    void drawDepth(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage);
     /// The same vertex stage with nothing rasterized.
     void drawDiscarded(const sim::StateTextures& state, SurfaceStage stage);
+
+    /// Triangles of the last draw() that were not skipped; reads back.
+    std::size_t trianglesDrawn() const;
+    std::size_t levels() const { return levels_.size(); }
 
     /// Transform feedback of the vertex stage, mesh order. Positions in lattice units, unit normals.
     struct Captured {
@@ -59,25 +79,66 @@ public:
     std::vector<float> blend() const;
     void setBlend(SurfaceStage stage, const std::vector<float>& blend, float step);
 
-    /// Draws from now on only these faces of the mesh (one flag a face), and these triangles over nodes for
-    /// stage nodes.
-    void show(const std::vector<glm::uvec3>& faces, const std::vector<bool>& left,
-              const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
+    /// Draws from now on what cuts left of the mesh, and these triangles over nodes for stage nodes. The
+    /// other arguments are those of create.
+    void show(const CutSurface& cut, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+              const SurfaceBinding& binding, const std::vector<glm::uvec3>& boundary,
+              const sim::TextureLayout& layout);
+
+    /// Makes the mask that strokes paint, and programs that ask it. Errors: of CutMask::create, of shaders.
+    Status openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout);
+    /// Null before openMask.
+    CutMask* mask() { return mask_ ? &*mask_ : nullptr; }
+    const CutMask* mask() const { return mask_ ? &*mask_ : nullptr; }
 
 private:
     struct Geometry {
         gpu::VertexArray array;
         gpu::Buffer vertices;
+        gpu::Buffer rest; // RestVertex, where cuts or textures ask for it
     };
     SurfacePasses() = default;
     Status createCaptures();
+    Result<Programs> compileBlend(const gpu::ShaderLibrary& library) const;
+    /// Buffers of a stage, of vertices in the buffers' order.
+    void setMapped(SurfaceStage stage, const std::vector<MappedVertex>& vertices);
+    void setRest(SurfaceStage stage, const std::vector<RestVertex>& vertices);
+    /// Rest states for all stages, from the arguments of create.
+    void createRest(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                    const SurfaceBinding& binding);
+    /// Vertices of all stages with those along cuts: pairs of a copy and the drawn vertex that it is one of.
+    void fillCut(const CutSurface& cut, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& extras,
+                 const sim::Lattice& lattice, const sim::TriangleMesh& metres, const SurfaceBinding& binding,
+                 const sim::TextureLayout& layout);
+    void setIndices(const std::vector<std::uint32_t>& indices);
+    void createTextures(const SurfaceDetail& detail, const sim::Lattice& lattice);
+    void createUvs();
+    void attachUvs();
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
-    void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    Status createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                          const SurfaceBinding& binding, const sim::TextureLayout& layout);
     void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
-    void drawTriangles(SurfaceStage stage);
+    void drawTriangles(SurfaceStage stage, std::size_t level);
+    /// Levels of detail of the uncut surface, and clusters of each. Errors: of SurfaceClusters::create.
+    Status createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                        const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                        const std::vector<std::uint32_t>& indices);
+    std::size_t levelFor(const Frame& frame) const;
+    void drawClusters(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
+                      std::size_t level, const gpu::Program& program);
+    void setVertexInputs(gpu::Program& program, const sim::StateTextures* state, const Frame& frame,
+                         SurfaceStage stage) const;
+    bool usesRest() const { return mask_ || textures_; }
+    /// Items of mesh vertices as the buffers have them.
+    template <class T>
+    std::vector<T> inBuffers(const std::vector<T>& items) const {
+        std::vector<T> ordered(drawn_.origin.size());
+        for (std::size_t i = 0; i < ordered.size(); ++i)
+            ordered[newIndex_[i]] = items[drawn_.origin[i]];
+        return ordered;
+    }
     bool blends(SurfaceStage stage) const { return blendStage_ == stage; }
     void setBlendUniforms(gpu::Program& program) const;
     void attachBlend(SurfaceStage stage, const gpu::Buffer& buffer);
@@ -92,9 +153,34 @@ private:
     Programs blendPrograms_;
     std::map<SurfaceStage, gpu::Program> blendCaptures_, blendStarts_;
     gpu::Buffer blend_; // two vec3 a vertex
-    gpu::Buffer indices_, nodeIndices_;
-    int indexCount_ = 0, nodeIndexCount_ = 0;
-    std::vector<std::uint32_t> newIndex_; // buffer index of each mesh vertex
+    struct Level {
+        gpu::Buffer indices;
+        int count = 0;
+        double error = 0; // lattice units, from the surface
+        std::optional<SurfaceClusters> clusters;
+        gpu::Buffer clusterIndices; // the same triangles, cluster after cluster
+    };
+    std::vector<Level> levels_;             // the first is the whole surface, or what cuts left of it
+    std::size_t lastLevel_ = 0;             // that was drawn
+    std::optional<std::size_t> lastCulled_; // the same, if clusters of it were skipped
+    RestBox bounds_;                        // of the surface at rest
+    gpu::Buffer nodeIndices_;
+    int nodeIndexCount_ = 0;
+    DrawnVertices drawn_;
+    std::vector<std::uint32_t> newIndex_; // buffer index of each drawn vertex
+    std::size_t meshVertices_ = 0;
+    struct Textures {
+        gpu::TiledTexture albedo, relief;
+        glm::vec3 albedoScale{1}, shift{0};
+        float tiles = 1, relief_ = 0; // a lattice unit; lattice units
+    };
+    std::optional<Textures> textures_;
+    gpu::Buffer uvs_; // TextureVertex, in the buffers' order
+    std::map<SurfaceStage, gpu::Program> depthPrograms_, blendDepthPrograms_; // made when first drawn
+    gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
+    std::vector<glm::u8vec4> colours_;                                        // of each mesh vertex
+    RestBox restBox_;
+    std::optional<CutMask> mask_;
 };
 
 } // namespace serosa::render

@@ -2,10 +2,12 @@
 
 #include "base/check.h"
 #include "gpu/gl.h"
-#include "render/cut_faces.h"
+#include "render/cut_surface.h"
 #include "render/frame.h"
+#include "render/lamp_shadow.h"
 #include "render/lattice_overlay.h"
 #include "render/picture_target.h"
+#include "render/screen_occlusion.h"
 #include "render/surface_passes.h"
 #include "render/surface_vertices.h"
 #include "render/tool_renderer.h"
@@ -18,19 +20,25 @@ namespace serosa::render {
 
 namespace {
 
+constexpr int kShadowSide = 2048;       // texels
+constexpr double kOcclusionReach = 0.1; // of the organs' diagonal
+
 struct DrawnOrgan {
     sim::Lattice placement; // spacing and origin only: metres from lattice units
     SurfacePasses surface;
     LatticeOverlay lattice;
+    glm::dvec3 lowest, highest; // at rest, m
 
     static Result<DrawnOrgan> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
-        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, layout));
+                                     const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                     const SurfaceDetail* detail) {
+        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, layout, detail));
         SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, layout));
         sim::Lattice placement;
         placement.spacing = lattice.spacing;
         placement.origin = lattice.origin;
-        return DrawnOrgan{std::move(placement), std::move(surface), std::move(overlay)};
+        return DrawnOrgan{std::move(placement), std::move(surface), std::move(overlay), metres.lowest(),
+                          metres.highest()};
     }
 };
 
@@ -46,6 +54,15 @@ struct SurfaceRenderer::Impl {
     gpu::Program backdrop;
     gpu::VertexArray empty;
     PictureTarget target;
+    std::optional<LampShadow> shadow;         // made when first asked for
+    std::optional<ScreenOcclusion> occlusion; // of the target's size; the same
+
+    glm::dvec3 lowest() const; // of all organs at rest, m
+    glm::dvec3 highest() const;
+    void drawDepths(const OrganStates& states, const View& view, const CameraView& camera, int width,
+                    int height);
+    void drawShadow(const OrganStates& states, const View& view, std::vector<Frame>& frames);
+    void drawOcclusion(const OrganStates& states, const View& view, std::vector<Frame>& frames);
 };
 
 namespace {
@@ -75,8 +92,9 @@ SurfaceRenderer::~SurfaceRenderer() = default;
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                                 const SurfaceBinding& binding,
-                                                const sim::StateTextures& state, int width, int height) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+                                                const sim::StateTextures& state, int width, int height,
+                                                const SurfaceDetail* detail) {
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
     SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
     SEROSA_ASSIGN(ThreadRenderer threads, ThreadRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
@@ -87,22 +105,25 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
                                             std::move(threads),
                                             std::move(backdrop),
                                             gpu::VertexArray("no attributes"),
-                                            PictureTarget(width, height)});
+                                            PictureTarget(width, height),
+                                            {},
+                                            {}});
     impl->organs.push_back(std::move(organ));
     return SurfaceRenderer(std::move(impl));
 }
 
 Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                 const SurfaceBinding& binding, const sim::StateTextures& state) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+                                 const SurfaceBinding& binding, const sim::StateTextures& state,
+                                 const SurfaceDetail* detail) {
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
     impl_->organs.push_back(std::move(organ));
     return {};
 }
 
 Status SurfaceRenderer::addLevel(std::size_t organ, const sim::Lattice& lattice,
                                  const sim::TriangleMesh& metres, const SurfaceBinding& binding,
-                                 const sim::StateTextures& state) {
-    SEROSA_ASSIGN(DrawnOrgan drawn, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+                                 const sim::StateTextures& state, const SurfaceDetail* detail) {
+    SEROSA_ASSIGN(DrawnOrgan drawn, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
     SEROSA_TRY(drawn.surface.prepareBlend());
     SEROSA_TRY(impl_->organs.at(organ).surface.prepareBlend());
     impl_->levels.resize(impl_->organs.size());
@@ -154,6 +175,69 @@ void SurfaceRenderer::setBlend(std::size_t organ, sim::Mapping mapping, const st
     drawn.surface.setBlend(stageOf(mapping), blend, float(SRS_BLEND_STEP * finest / drawn.placement.spacing));
 }
 
+glm::dvec3 SurfaceRenderer::Impl::lowest() const {
+    glm::dvec3 bound = organs[0].lowest;
+    for (const DrawnOrgan& organ : organs)
+        bound = glm::min(bound, organ.lowest);
+    return bound;
+}
+
+glm::dvec3 SurfaceRenderer::Impl::highest() const {
+    glm::dvec3 bound = organs[0].highest;
+    for (const DrawnOrgan& organ : organs)
+        bound = glm::max(bound, organ.highest);
+    return bound;
+}
+
+/// Organs and tools into a bound target without colours.
+void SurfaceRenderer::Impl::drawDepths(const OrganStates& states, const View& view, const CameraView& camera,
+                                       int width, int height) {
+    std::vector<Frame> frames;
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        frames.push_back(makeFrame(organs[i].placement, camera, view.light, view.look, width, height));
+        if (view.look.surface)
+            organs[i].surface.drawDepth(*states[i], frames[i], stageOf(view.look.mapping));
+    }
+    std::vector<DrawnShape> solid; // floors fade out: they throw no shadow
+    for (const DrawnShape& shape : view.shapes)
+        if (view.look.tools && shape.finish != Finish::floor)
+            solid.push_back(shape);
+    tools.draw(frames[0], organs[0].placement, solid);
+}
+
+void SurfaceRenderer::Impl::drawShadow(const OrganStates& states, const View& view,
+                                       std::vector<Frame>& frames) {
+    if (!shadow)
+        shadow.emplace(kShadowSide);
+    const CameraView lamp = lampView(view.light.direction, lowest(), highest());
+    shadow->begin();
+    View whole = view; // a section shows the inside: it lets no light in
+    whole.look.sectionAt.reset();
+    drawDepths(states, whole, lamp, kShadowSide, kShadowSide);
+    shadow->end();
+    for (std::size_t i = 0; i < organs.size(); ++i) {
+        const sim::Lattice& placement = organs[i].placement;
+        frames[i].shadow = &shadow->depth();
+        frames[i].shadowFromLattice =
+            makeFrame(placement, lamp, view.light, view.look, kShadowSide, kShadowSide).clipFromLattice;
+        frames[i].shadowTexel = float(lampExtent(lowest(), highest()) / kShadowSide / placement.spacing);
+    }
+}
+
+void SurfaceRenderer::Impl::drawOcclusion(const OrganStates& states, const View& view,
+                                          std::vector<Frame>& frames) {
+    if (!occlusion) {
+        Result<ScreenOcclusion> made = ScreenOcclusion::create(target.width(), target.height());
+        SEROSA_CHECK(made.ok(), "the driver compiles GLSL 4.5");
+        occlusion.emplace(std::move(made).value());
+    }
+    occlusion->begin();
+    drawDepths(states, view, view.camera, target.width(), target.height());
+    occlusion->make(view.camera, kOcclusionReach * glm::distance(lowest(), highest()));
+    for (Frame& frame : frames)
+        frame.occlusion = &occlusion->light();
+}
+
 void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     Impl& in = *impl_;
     SEROSA_CHECK(states.size() == in.organs.size(), "one state an organ");
@@ -161,11 +245,18 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     for (const DrawnOrgan& organ : in.organs) {
         frames.push_back(makeFrame(organ.placement, view.camera, view.light, view.look, in.target.width(),
                                    in.target.height()));
+        frames.back().blood = view.look.blood;
+        frames.back().cull = view.cull && !view.wireframe;
+        frames.back().mostError = view.wireframe ? 0 : float(view.surfaceError);
         for (const DrawnShape& drawn : view.shapes)
             if (view.look.tools && drawn.shape.kind == sim::ShapeKind::sphere)
                 frames.back().shades.emplace_back(organ.placement.toLattice(drawn.pose.at),
                                                   drawn.shape.radius / organ.placement.spacing);
     }
+    if (view.look.shadows)
+        in.drawShadow(states, view, frames);
+    if (view.look.occlusion)
+        in.drawOcclusion(states, view, frames);
     in.target.begin();
     glDisable(GL_DEPTH_TEST);
     in.backdrop.set("u_size", frames[0].size);
@@ -195,16 +286,54 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     in.target.end();
 }
 
+Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& lattice,
+                                    const sim::TextureLayout& layout) {
+    SurfacePasses& surface = impl_->organs.at(organ).surface;
+    return surface.mask() ? Status() : surface.openMask(lattice, layout);
+}
+
+Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
+                                 const sim::StateTextures& state, const sim::Stroke& stroke) {
+    SurfacePasses& surface = impl_->organs.at(organ).surface;
+    if (stroke.kind == sim::StrokeKind::tear)
+        return {};
+    SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
+    surface.mask()->paint(state, lattice, stroke);
+    return {};
+}
+
+std::string SurfaceRenderer::saveCuts(std::size_t organ) const {
+    const CutMask* mask = impl_->organs.at(organ).surface.mask();
+    return mask ? mask->save() : std::string();
+}
+
+Status SurfaceRenderer::restoreCuts(std::size_t organ, const sim::Lattice& lattice,
+                                    const sim::StateTextures& state, std::string_view bytes) {
+    SurfacePasses& surface = impl_->organs.at(organ).surface;
+    if (bytes.empty()) {
+        if (surface.mask())
+            surface.mask()->clear();
+        return {};
+    }
+    SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
+    if (!surface.mask()->restore(bytes))
+        return Error{"the mask of what was cut is of another lattice"};
+    return {};
+}
+
 void SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
                                const sim::TriangleMesh& metres, const SurfaceBinding& binding,
                                const sim::TextureLayout& layout,
                                const std::vector<std::uint32_t>& connections) {
-    impl_->organs.at(organ).surface.show(metres.faces, facesLeft(lattice, metres.faces, binding, connections),
-                                         sim::boundaryLeft(lattice, connections), layout);
+    SurfacePasses& surface = impl_->organs.at(organ).surface;
+    const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
+    surface.show(cutSurface(lattice, metres, binding, connections, sides), lattice, metres, binding,
+                 sim::boundaryLeft(lattice, connections), layout);
 }
 
 void SurfaceRenderer::resize(int width, int height) {
     impl_->target = PictureTarget(width, height);
+    impl_->occlusion.reset();
 }
 
 void SurfaceRenderer::show(int width, int height) const {
@@ -256,7 +385,7 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
     for (const sim::Mapping mapping :
          {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
         for (const sim::SurfaceColour colour :
-             {sim::SurfaceColour::tissue, sim::SurfaceColour::dynamicNormal}) {
+             {sim::SurfaceColour::tissue, sim::SurfaceColour::dynamicNormal, sim::SurfaceColour::plain}) {
             rehearsal.look.mapping = mapping;
             rehearsal.look.colour = colour;
             draw(states, rehearsal);
@@ -301,6 +430,10 @@ void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state, Verte
 
 std::size_t SurfaceRenderer::bytesPerVertex() {
     return sizeof(MappedVertex);
+}
+
+std::size_t SurfaceRenderer::trianglesDrawn(std::size_t organ) const {
+    return impl_->organs.at(organ).surface.trianglesDrawn();
 }
 
 int SurfaceRenderer::samples() const {

@@ -14,6 +14,8 @@
 #include "sim/state_textures.h"
 
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace serosa::render {
@@ -26,7 +28,11 @@ struct View {
     std::vector<DrawnShape> shapes;   // tools and bodies (render/tool_shapes.h)
     std::vector<DrawnThread> threads; // between organs, drawn where tools are
     bool wireframe = false;           // the surface as the edges of its front faces
+    bool cull = true;                 // skip what cannot be seen of the surface (render/surface_clusters.h)
+    double surfaceError = 0.5; // pixels that a level of detail of it may be off by; 0: the whole surface
 };
+
+struct SurfaceDetail; // render/surface_passes.h
 
 /// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.
 enum class VertexStage { undeformed, constant, corrected };
@@ -38,22 +44,25 @@ class SurfaceRenderer {
 public:
     /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it
     /// (either mapping: the other one is expressed over the same triangles). Needs a current context; the
-    /// renderer dies before it. Errors: shader errors of the driver.
+    /// renderer dies before it. \param detail its texture (render/tissue_texture.h); null: none. Errors:
+    /// shader errors of the driver.
     static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                           const SurfaceBinding& binding, const sim::StateTextures& state,
-                                          int width, int height);
+                                          int width, int height, const SurfaceDetail* detail = nullptr);
     SurfaceRenderer(SurfaceRenderer&&) noexcept;
     SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
     ~SurfaceRenderer();
 
     /// One more organ in the same picture; the arguments as for create. Draws from now on take a state more.
     Status addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                    const SurfaceBinding& binding, const sim::StateTextures& state);
+                    const SurfaceBinding& binding, const sim::StateTextures& state,
+                    const SurfaceDetail* detail = nullptr);
 
     /// One more level of detail of an organ (sim/lod.h): the same surface over another lattice. Its own is
     /// level 0, those added follow.
     Status addLevel(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                    const SurfaceBinding& binding, const sim::StateTextures& state);
+                    const SurfaceBinding& binding, const sim::StateTextures& state,
+                    const SurfaceDetail* detail = nullptr);
     /// Draws an organ on another level from now on.
     void setLevel(std::size_t organ, std::size_t level);
     /// The same, in motion, from its state `to`; `from` is what it was drawn from. The
@@ -68,8 +77,20 @@ public:
     /// Sets it again; the frame follows.
     void setBlend(std::size_t organ, sim::Mapping mapping, const std::vector<float>& blend, double finest);
 
-    /// After cuts: draws from now on what they left of an organ's surface (render/cut_faces.h). The arguments
-    /// are those that the organ was added with; connections: 18 bits a node.
+    /// Makes an organ's mask (render/cut_mask.h) before the first stroke does. Errors: of CutMask::create.
+    Status prepareCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TextureLayout& layout);
+    /// Paints a stroke into an organ's mask, made by the first one, with the organ as `state` has it. Errors:
+    /// of CutMask::create.
+    Status paintCut(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
+                    const sim::Stroke& stroke);
+    /// The mask of an organ for snapshots, empty where none was made, and set again; empty: nothing is cut.
+    /// Errors: as paintCut; bytes of another mask.
+    std::string saveCuts(std::size_t organ) const;
+    Status restoreCuts(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
+                       std::string_view bytes);
+    /// After cuts: draws from now on what they left of an organ's surface (render/cut_surface.h). The
+    /// arguments are those that the organ was added with; connections: 18 bits a node. Reads the mask's sides
+    /// back.
     void showCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                   const SurfaceBinding& binding, const sim::TextureLayout& layout,
                   const std::vector<std::uint32_t>& connections);
@@ -101,6 +122,9 @@ public:
     void drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage);
     /// Bytes of vertex attributes that a mapped vertex takes.
     static std::size_t bytesPerVertex();
+    /// Triangles of an organ's surface that the last picture drew, of it and of its surface's level of
+    /// detail; reads back.
+    std::size_t trianglesDrawn(std::size_t organ = 0) const;
     /// Samples a pixel of the target.
     int samples() const;
 

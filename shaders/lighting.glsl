@@ -10,7 +10,7 @@ uniform vec4 u_eye;       // lattice units, w = 1; or the direction to the eye, 
 const vec3 kKeyColour = vec3(1.00, 0.96, 0.90);
 const vec3 kBackColour = vec3(0.62, 0.78, 1.00);
 const vec3 kSky = vec3(0.52, 0.56, 0.62);
-const vec3 kGround = vec3(0.17, 0.13, 0.12);
+const vec3 kGround = vec3(0.27, 0.20, 0.18); // light that the room throws back from below
 
 vec3 toEye(vec3 position) {
     return normalize(u_eye.xyz - position * u_eye.w);

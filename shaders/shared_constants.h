@@ -131,3 +131,10 @@
 #define SRS_BLEND_FRAMES 10.0       // in which the drawing of one level turns into that of the next,
 #define SRS_BLEND_MOST_FRAMES 250.0 // or up to so many where it is far: a frame moves no vertex by more than
 #define SRS_BLEND_STEP 0.08         // of the finest level's spacing
+
+// The mask that strokes leave in rest space (render/cut_mask.h)
+#define SRS_MASK_REACH 2.0 // spacings: how far from a cut its distance and side are known
+#define SRS_MASK_WIDTH 0.9 // voxels: half the width of what a blade takes away
+#define SRS_MASK_GROUP 64  // invocations that paint a cell
+#define SRS_MASK_FAR 1.0e9 // a node that no blade came near
+#define SRS_MASK_KEPT 0xffffffffu

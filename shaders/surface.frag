@@ -1,74 +1,99 @@
 #version 450 core
-// Wet tissue, lit per pixel with the rest normal that the basis carried along: wrapped diffuse light that turns red at the
-// terminator (blood scatters red farthest), a rough lobe of the tissue and a sharp one of the film on it, soft surroundings.
-// Or (SURFACE_NORMAL_COLOURS) the dynamic normal as a colour, for MS05 figure 6.
+// Wet tissue, lit per pixel in the frame that the basis carried along from rest (tissue_light.glsl). Where a blade cut, fragments are
+// discarded (SURFACE_CUT) and the inside shows as flesh. Or the dynamic normal as a colour (SURFACE_NORMAL_COLOURS), for MS05
+// figure 6; or its own colour under the key lamp alone (SURFACE_PLAIN), which other renderers can draw, too.
 #include "shared_constants.h"
 #include "lighting.glsl"
+#include "tissue_light.glsl"
 
 in vec3 v_position;
 in vec3 v_normal;
 in vec3 v_dynamicNormal;
 in vec4 v_colour;
+#ifdef SURFACE_REST
+in vec3 v_rest;
+#endif
+#ifdef SURFACE_CUT
+#include "cut_mask.glsl"
+flat in float v_side;
+uniform bool u_blood;
+#endif
+#ifdef SURFACE_TEXTURED
+#include "tissue_texture.glsl"
+in mat3 v_turn; // to now from rest
+#endif
+#ifdef SURFACE_UV
+in vec2 v_uv;
+in vec4 v_tangent; // at rest; w: sign of the bitangent
+#endif
 
-uniform vec4 u_tools[SRS_MAX_TOOLS]; // centre, radius in lattice units
-uniform int u_toolCount;
 uniform vec4 u_section; // plane, lattice units; 0: none
 
 out vec4 o_colour;
 
-const vec3 kCutColour = vec3(0.42, 0.085, 0.07); // flesh, evenly lit: one plane
+const vec3 kInnerColour = vec3(0.36, 0.045, 0.035); // flesh, seen through a cut
+const float kInnerOpen = 0.45;                      // of the surround, in there
+const vec3 kCutColour = vec3(0.42, 0.085, 0.07);    // flesh, evenly lit: one plane
+const vec3 kBlood = vec3(0.150, 0.0060, 0.0045);
 
-/// Light that tools leave: x of the surround, y of the key lamp.
-vec2 toolShade(vec3 position, vec3 n) {
-    vec2 light = vec2(1.0);
-    for (int i = 0; i < u_toolCount; ++i) {
-        float radius = u_tools[i].w;
-        vec3 to = u_tools[i].xyz - position;
-        float distance2 = max(dot(to, to), radius * radius), distance = sqrt(distance2);
-        light.x *= 1.0 - max(dot(n, to) / distance, 0.0) * radius * radius / distance2;
-        float along = dot(to, u_toKey), miss = sqrt(max(dot(to, to) - along * along, 0.0));
-        float blur = 0.15 * radius + 0.25 * max(along, 0.0);
-        light.y *= along > 0.0 ? smoothstep(radius - blur, radius + blur, miss) : 1.0;
-    }
-    return light;
+#ifdef SURFACE_CUT
+/// 0..1: how much blood lies here, in a film that ends unevenly.
+float bloodAt(vec3 rest, float distance) {
+    vec3 w = 2.1 * rest;
+    float ripple = 0.5 + 0.25 * (sin(w.x + 2.0 * sin(w.y)) + sin(1.7 * w.z + 2.0 * sin(w.x)));
+    return 1.0 - smoothstep(0.10 + 0.25 * ripple, 0.28 + 0.55 * ripple, distance);
 }
+#endif
 
 void main() {
+    Tissue tissue;
+    tissue.blood = 0.0;
+#ifdef SURFACE_CUT
+    vec4 mask = cutMask(v_rest);
+    if (isCut(mask, v_side))
+        discard;
+    if (u_blood)
+        tissue.blood = bloodAt(v_rest, mask.b * SRS_MASK_REACH);
+#endif
     // The surface is closed: where its inner side shows through a section, solid tissue has been cut.
     if (!gl_FrontFacing && u_section.xyz != vec3(0.0)) {
         o_colour = vec4(kCutColour, 1.0);
         return;
     }
-    vec3 n = normalize(v_normal), v = toEye(v_position);
+    vec3 n = normalize(gl_FrontFacing ? v_normal : -v_normal), v = toEye(v_position);
     float away = dot(n, v);
     if (away < 0.02) // interpolation turns normals at the silhouette a little away from the eye
         n = normalize(n + (0.02 - away) * v);
-#ifdef SURFACE_NORMAL_COLOURS
+#if defined(SURFACE_NORMAL_COLOURS)
     vec3 albedo = 0.5 + 0.5 * normalize(v_dynamicNormal);
     float shade = 0.35 + 0.5 * max(dot(n, u_toKey), 0.0) + 0.15 * max(dot(n, v), 0.0);
     o_colour = vec4(albedo * albedo * shade, 1.0);
+#elif defined(SURFACE_PLAIN)
+    o_colour = vec4(v_colour.rgb * (0.25 * u_ambient + 0.75 * u_key * max(dot(n, u_toKey), 0.0)), 1.0);
 #else
-    vec3 albedo = v_colour.rgb;
-    vec2 shade = toolShade(v_position, n);
-    float open = v_colour.a * shade.x, ndl = dot(n, u_toKey), ndv = max(dot(n, v), 0.02);
-
-    const vec3 kWrap = vec3(0.40, 0.13, 0.08);
-    vec3 key = max((ndl + kWrap) / ((1.0 + kWrap) * (1.0 + kWrap)), 0.0);
-    key *= mix(vec3(1.0), vec3(shade.y), vec3(0.80, 0.93, 0.95)); // some red light gets under the tool's shadow
-    key *= 0.45 + 0.55 * v_colour.a;
-    vec3 occluded = vec3(sqrt(open), open, open); // and into the grooves
-    float back = max((dot(n, u_toBack) + 0.25) / 1.56, 0.0) * open;
-    vec3 colour = albedo * (kKeyColour * key * (1.75 * u_key) + surround(n) * 0.75 * occluded +
-                            kBackColour * (0.35 * u_key * back));
-
-#ifndef SURFACE_NODES // eq. 3 on the lattice's steps is too rough to shine
-    // The tissue's own rough lobe, then the film: what a sharp mirror sees, by Fresnel.
-    vec3 h = normalize(v + u_toKey);
-    float ndh = max(dot(n, h), 0.0), ldh = max(dot(u_toKey, h), 0.0);
-    colour += kKeyColour * (0.09 * max(ndl, 0.0) * shade.y * u_key * ggx(0.13, ndh, ldh) * v_colour.a);
-    colour += studio(reflect(-v, n), 0.1) * (fresnel(0.028, ndv) * open * open * mix(0.45, 1.0, shade.y));
+    tissue.position = v_position;
+    tissue.albedo = gl_FrontFacing ? v_colour.rgb : kInnerColour;
+    tissue.open = gl_FrontFacing ? v_colour.a : kInnerOpen;
+    tissue.normal = n;
+    tissue.film = n;
+    tissue.roughness = 0.36;
+#ifdef SURFACE_TEXTURED
+    mat3 turn = mat3(normalize(v_turn[0]), normalize(v_turn[1]), normalize(v_turn[2]));
+    vec3 restNormal = normalize(n * turn), restView = v * turn; // by its transpose
+#ifdef SURFACE_UV
+    Detail detail = detailOf(v_rest, restNormal, restView, v_tangent, v_uv);
+#else
+    Detail detail = detailOf(v_rest, restNormal, restView);
 #endif
-    float grey = dot(colour, vec3(0.2126, 0.7152, 0.0722)); // blood's pure red is paler in bright light
-    o_colour = vec4(toneMap(mix(colour, vec3(grey), 0.06 + 0.1 * clamp(grey, 0.0, 1.0))), 1.0);
+    if (gl_FrontFacing) {
+        tissue.albedo *= detail.albedo;
+        tissue.open *= detail.open;
+        tissue.normal = normalize(turn * detail.normal);
+        tissue.film = normalize(n + 0.7 * tissue.normal); // the film fills the relief
+        tissue.roughness = detail.roughness;
+    }
+#endif
+    tissue.albedo = mix(tissue.albedo, kBlood, 0.8 * tissue.blood);
+    o_colour = vec4(tissueLight(tissue, v), 1.0);
 #endif
 }

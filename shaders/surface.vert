@@ -26,6 +26,28 @@ uniform float u_blendFrames; // since the switch
 uniform float u_blendStep;   // lattice units that it may move the vertex a frame
 #endif
 
+#ifdef SURFACE_REST // render/surface_vertices.h: RestVertex
+layout(location = 7) in vec4 a_rest;   // position at rest in its box; w: the side of a cut, in 1/65535
+layout(location = 8) in uvec2 a_frame; // rest normal in lattice axes; a tangent to it, in the basis; packed
+uniform vec3 u_restFrom, u_restExtent; // of the box, lattice units
+
+out vec3 v_rest;       // lattice units, where the cut mask and the textures are read
+flat out float v_side; // of a cut that the triangle follows: -1, 1; 0: both
+out mat3 v_turn;       // to now from rest
+
+/// The tangent that render/surface_vertices.h gives a normal, too (Duff et al. 2017).
+vec3 anyTangent(vec3 n) {
+    float sign = n.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (sign + n.z);
+    return vec3(1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x);
+}
+#endif
+#ifdef SURFACE_UV
+layout(location = 9) in vec2 a_uv;
+layout(location = 10) in vec4 a_tangent; // of the texture, at rest, lattice axes; w: sign of its bitangent
+out vec2 v_uv;
+out vec4 v_tangent;
+#endif
+
 uniform mat4 u_clipFromLattice;
 uniform vec4 u_section; // plane, lattice units: drawn where it is positive, if GL_CLIP_DISTANCE0 is on
 
@@ -61,6 +83,23 @@ void main() {
     v_colour = a_colour;
 #endif
     v_colour.rgb *= v_colour.rgb;
+#ifdef SURFACE_REST
+    v_rest = u_restFrom + a_rest.xyz * u_restExtent;
+    v_side = round(a_rest.w * 65535.0) - 1.0;
+    vec3 frame = unpackNormal(a_frame.y), restN = unpackNormal(a_frame.x), restT = anyTangent(restN);
+#ifdef SURFACE_STATIC
+    vec3 t = frame;
+#else
+    vec3 t = frame.x * mapped.t + frame.y * mapped.n + frame.z * mapped.b;
+#endif
+    vec3 n = normalize(v_normal);
+    t = normalize(t - n * dot(n, t));
+    v_turn = mat3(t, n, cross(n, t)) * transpose(mat3(restT, restN, cross(restN, restT)));
+#endif
+#ifdef SURFACE_UV
+    v_uv = a_uv;
+    v_tangent = a_tangent;
+#endif
     gl_ClipDistance[0] = dot(u_section, vec4(v_position, 1.0));
     gl_Position = u_clipFromLattice * vec4(v_position, 1.0);
 }

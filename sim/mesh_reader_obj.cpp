@@ -1,6 +1,6 @@
-// Wavefront OBJ: v (with colours, as MeshLab writes them) and f; normals, texture coordinates, groups,
-// materials, points and lines are passed over; free-form surfaces and unknown keywords are errors. Material
-// files are never opened.
+// Wavefront OBJ: v (with colours, as MeshLab writes them), vt (where every face's corners name them) and f;
+// normals, groups, materials, points and lines are passed over; free-form surfaces and unknown keywords are
+// errors. Material files are never opened.
 #include "sim/mesh_reader_detail.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 namespace serosa::sim::detail {
 namespace {
 
-constexpr std::array kPassedOver{"vn",         "vt",        "vp", "g",        "o",       "s",     "usemtl",
-                                 "mtllib",     "l",         "p",  "maplib",   "usemap",  "bevel", "lod",
-                                 "shadow_obj", "trace_obj", "mg", "c_interp", "d_interp"};
+constexpr std::array kPassedOver{"vn",     "vp",         "g",         "o",      "s",        "usemtl",
+                                 "mtllib", "l",          "p",         "maplib", "usemap",   "bevel",
+                                 "lod",    "shadow_obj", "trace_obj", "mg",     "c_interp", "d_interp"};
 constexpr std::array kFreeForm{"cstype", "deg",  "bmat", "step", "curv", "curv2", "surf", "parm",  "trim",
                                "hole",   "scrv", "sp",   "end",  "con",  "call",  "csh",  "ctech", "stech"};
 
@@ -28,6 +28,8 @@ public:
             const auto isKeyword = [&](const char* known) { return keyword == known; };
             if (keyword == "v") {
                 SEROSA_TRY(readVertex());
+            } else if (keyword == "vt") {
+                SEROSA_TRY(readTextureVertex());
             } else if (keyword == "f") {
                 SEROSA_TRY(readFace());
             } else if (std::any_of(kFreeForm.begin(), kFreeForm.end(), isKeyword)) {
@@ -48,6 +50,7 @@ public:
                                                     ", but the file has " +
                                                     std::to_string(mesh_.positions.size()) +
                                                     "; the file may be cut off, export it again");
+        SEROSA_TRY(giveUvs());
         return std::move(mesh_);
     }
 
@@ -100,11 +103,60 @@ private:
         return {};
     }
 
+    Status readTextureVertex() {
+        const std::size_t count = words_.size() - 1;
+        if (count < 1 || count > 3)
+            return error("a texture coordinate (vt) has " + std::to_string(count) +
+                         " values; it takes u, u v or u v w");
+        glm::vec2 uv(0);
+        std::string why;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto value = parseNumber(words_[i + 1], why);
+            if (!value)
+                return error(why);
+            if (i < 2)
+                uv[int(i)] = float(*value);
+        }
+        textureVertices_.push_back(uv);
+        return {};
+    }
+
+    /// A face's texture corner, 0 where it names none. As addCorner.
+    Status addTextureCorner(std::int64_t index) {
+        if (index < 0) {
+            index += std::int64_t(textureVertices_.size()) + 1;
+            if (index < 1)
+                return error("a face counts back before the first texture coordinate; export the mesh again");
+        }
+        if (std::size_t(index) > highestTexture_) {
+            highestTexture_ = std::size_t(index);
+            highestTextureLine_ = firstLine_;
+        }
+        textureCorners_.push_back(std::uint32_t(index));
+        return {};
+    }
+
+    /// Texture coordinates, if all corners of all faces have them.
+    Status giveUvs() {
+        if (highestTexture_ > textureVertices_.size())
+            return source_.atLine(highestTextureLine_,
+                                  "a face names texture coordinate " + std::to_string(highestTexture_) +
+                                      ", but the file has " + std::to_string(textureVertices_.size()) +
+                                      "; export the mesh again");
+        if (textureVertices_.empty() || bareCorner_)
+            return {};
+        for (const glm::uvec3& face : textureFaces_)
+            for (int i = 0; i < 3; ++i)
+                mesh_.uvs.push_back(textureVertices_[face[i] - 1]);
+        return {};
+    }
+
     Status readFace() {
         if (words_.size() < 4)
             return error("a face (f) has " + std::to_string(words_.size() - 1) +
                          " corners; it takes three or more, the file may be cut off here");
         corners_.clear();
+        textureCorners_.clear();
         std::string why;
         for (std::size_t i = 1; i < words_.size(); ++i) {
             std::string_view rest = words_[i];
@@ -121,6 +173,8 @@ private:
                                      "; OBJ counts from 1, export the mesh again");
                     if (part == 0)
                         SEROSA_TRY(addCorner(*value));
+                    if (part == 1)
+                        SEROSA_TRY(addTextureCorner(*value));
                 }
                 if (slash == std::string_view::npos)
                     break;
@@ -131,6 +185,9 @@ private:
             }
         }
         appendFan(corners_, mesh_.faces);
+        bareCorner_ = bareCorner_ || textureCorners_.size() != corners_.size();
+        if (!bareCorner_)
+            appendFan(textureCorners_, textureFaces_);
         return {};
     }
 
@@ -156,7 +213,11 @@ private:
     LineReader reader_;
     TriangleMesh mesh_;
     std::vector<std::string_view> words_;
-    std::vector<std::uint32_t> corners_;
+    std::vector<std::uint32_t> corners_, textureCorners_; // of the face being read; texture: counted from 1
+    std::vector<glm::vec2> textureVertices_;
+    std::vector<glm::uvec3> textureFaces_; // as mesh_.faces, while every corner names a texture coordinate
+    bool bareCorner_ = false;
+    std::size_t highestTexture_ = 0, highestTextureLine_ = 0;
     std::size_t firstLine_ = 0;
     std::size_t highestCorner_ = 0, highestLine_ = 0;
 };

@@ -1,7 +1,7 @@
 // Stanford PLY, text and both binary byte orders. The vertex element needs x y z, the face element a list
-// vertex_indices (or vertex_index); uchar red green blue are colours; all other properties and elements are
-// passed over, but must be complete. Counts are compared with the bytes that are left before anything is
-// allocated.
+// vertex_indices (or vertex_index); uchar red green blue are colours, u v, s t or texture_u texture_v texture
+// coordinates; all other properties and elements are passed over, but must be complete. Counts are compared
+// with the bytes that are left before anything is allocated.
 #include "sim/mesh_reader_ply.h"
 
 #include "sim/mesh_reader_detail.h"
@@ -173,6 +173,10 @@ public:
         SEROSA_TRY(body_.expectEnd());
         if (mesh_.faces.empty())
             return body_.error("no faces; export a surface, not points");
+        if (header_.textured)
+            for (const glm::uvec3& face : mesh_.faces)
+                for (int i = 0; i < 3; ++i)
+                    mesh_.uvs.push_back(uvs_[face[i]]);
         return std::move(mesh_);
     }
 
@@ -180,6 +184,7 @@ private:
     Status readRow(const PlyElement& element) {
         glm::dvec3 position(0);
         glm::u8vec3 colour(0);
+        glm::vec2 uv(0);
         for (const auto& property : element.properties) {
             switch (property.role) {
             case PlyRole::x:
@@ -197,6 +202,12 @@ private:
                     static_cast<std::uint8_t>(value);
                 break;
             }
+            case PlyRole::u:
+            case PlyRole::v: {
+                SEROSA_ASSIGN(const double value, body_.coordinate(property.type));
+                uv[property.role == PlyRole::v ? 1 : 0] = float(value);
+                break;
+            }
             case PlyRole::corners:
                 SEROSA_TRY(readCorners(property));
                 break;
@@ -209,6 +220,8 @@ private:
             mesh_.positions.push_back(position);
             if (header_.coloured)
                 mesh_.colours.push_back(colour);
+            if (header_.textured)
+                uvs_.push_back(uv);
         }
         return {};
     }
@@ -234,6 +247,7 @@ private:
     const PlyHeader& header_;
     PlyBody body_;
     TriangleMesh mesh_;
+    std::vector<glm::vec2> uvs_; // one a vertex
     std::vector<std::uint32_t> corners_;
 };
 

@@ -15,7 +15,7 @@ namespace serosa::sim::detail {
 enum class PlyEncoding { text, littleEndian, bigEndian };
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 /// What a property is to us; the order within x y z and red green blue matters.
-enum class PlyRole { other, x, y, z, red, green, blue, corners };
+enum class PlyRole { other, x, y, z, red, green, blue, u, v, corners };
 
 struct PlyProperty {
     std::string name;
@@ -36,6 +36,7 @@ struct PlyHeader {
     std::vector<PlyElement> elements;
     std::size_t vertexElement = 0;
     bool coloured = false;      // uchar red, green and blue are all there
+    bool textured = false;      // u and v are, under one of their names
     std::size_t bodyOffset = 0; // first byte after end_header's line
     std::size_t bodyLine = 1;   // its line number
 

@@ -167,6 +167,15 @@ private:
         if (header_.coloured)
             for (std::size_t i = 0; i < 3; ++i)
                 channels[i]->role = static_cast<PlyRole>(static_cast<std::size_t>(PlyRole::red) + i);
+        for (const auto& [u, v] :
+             {std::pair{"u", "v"}, std::pair{"s", "t"}, std::pair{"texture_u", "texture_v"}}) {
+            PlyProperty *first = findProperty(*vertices, u), *second = findProperty(*vertices, v);
+            if (header_.textured || !first || !second || first->isList || second->isList)
+                continue;
+            header_.textured = true;
+            first->role = PlyRole::u;
+            second->role = PlyRole::v;
+        }
         PlyProperty* corners = findProperty(*faces, "vertex_indices");
         if (!corners)
             corners = findProperty(*faces, "vertex_index");

@@ -36,6 +36,22 @@ struct LevelKey {
     int level = 1;
 };
 
+/// A texture of tissue made by the program (render/tissue_texture.h).
+enum class TissueTexture { none, heartMuscle, fat, liverCapsule, kidney };
+
+/// How an organ's surface looks from near: a texture made by the program, or pictures (PNG). They repeat
+/// every `tile`, in the model's texture coordinates (then a tile is 1) or, where it has none, in rest space.
+struct OrganLook {
+    TissueTexture texture = TissueTexture::none;
+    std::filesystem::path albedo, normal, height; // resolved as Organ::model; empty: none
+    int albedoLine = 0, normalLine = 0, heightLine = 0;
+    double tile = 0.024;    // m: side of a tile in rest space
+    double relief = 0.0004; // m: from the lowest to the highest of the height
+    bool textured() const {
+        return texture != TissueTexture::none || !albedo.empty() || !normal.empty() || !height.empty();
+    }
+};
+
 struct Organ {
     std::string name = "organ";
     std::filesystem::path model; // resolved against the scene file's folder
@@ -53,6 +69,7 @@ struct Organ {
         0;                 // `[[organ.fixed]] shape = "lowest", share = 0.05`: lowest part of the height
     double tearStrain = 0; // springs stretched beyond (1 + this) tear; 0: none do
     std::optional<Pose> pose;
+    OrganLook look;
     bool selfContact = false; // its parts touch each other
     int selfContactLine = 0;  // of the scene file, for messages
     StepMethod method = StepMethod::explicitSteps;
@@ -92,13 +109,16 @@ struct Light {
 };
 
 enum class Mapping { oneToOne, triangle, curvature };
-enum class SurfaceColour { tissue, dynamicNormal, material };
+enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 struct Look {
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn
     std::optional<glm::dvec3> sectionAt;                // m; what lies beyond it, to where
     glm::dvec3 sectionNormal{0, 0, 1};                  // this points, is cut away from the picture
+    bool shadows = false;                               // of organs and tools under the key light
+    bool occlusion = false; // of the surround, found in the picture (beside what each vertex has baked in)
+    bool blood = true;      // a film of it beside fresh cuts
 };
 
 enum class ImageFormat { nrrd, mha };
@@ -110,6 +130,7 @@ struct Output {
     int frameEvery = 1;                  // every how many frames a picture is written
     int sheetColumns = 4, sheetRows = 3; // contact sheet
     std::vector<double> sheetAt;         // s; empty: evenly spread
+    int turntable = 0;                   // views around the last frame on a sheet of its own; 0: none
 };
 
 struct Scene {

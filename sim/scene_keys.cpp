@@ -132,6 +132,7 @@ std::vector<SceneKey> generalKeys() {
         plain("organ", "region", Kind::tables, kAny, "", "cells of these materials; a later region wins"),
         plain("organ", "fixed", Kind::tables, kAny, "", "regions whose nodes do not move"),
         plain("organ", "pose", Kind::table, kAny, "", "a given motion instead of a simulated one"),
+        plain("organ", "look", Kind::table, kAny, "", "what its surface looks like from near"),
         word("organ", "method", {"explicit", "implicit"}, "\"explicit\"",
              "how it steps: as many steps a frame as are stable, or one a frame whatever the stiffness "
              "(see Stiff organs above); not beside a pose"),
@@ -191,6 +192,26 @@ std::vector<SceneKey> organKeys() {
                 "organ.pose", "bend_radius", Dim::length, kPositive, nullptr,
                 "all nodes follow a bend about the z axis, from straight to this radius over the run; the "
                 "ends go down"),
+
+            word("organ.look", "texture", {"none", "heart-muscle", "fat", "liver-capsule", "kidney"},
+                 "\"none\"",
+                 "a texture made by the program, in rest space; of a model with colours of its own it gives "
+                 "the pattern alone"),
+            plain("organ.look", "albedo", Kind::text, kAny, "",
+                  "instead: a picture (PNG) of the colour; the path is relative to the scene file; sides are "
+                  "powers "
+                  "of two, 4 to 4096; not beside `texture`"),
+            plain("organ.look", "normal", Kind::text, kAny, "",
+                  "a normal map (PNG, blue away from the surface) of the same size"),
+            plain(
+                "organ.look", "height", Kind::text, kAny, "",
+                "a height map (PNG, white highest) of the same size; without it the relief is flat, without "
+                "`normal` it gives the normals"),
+            quantity(
+                "organ.look", "tile", Dim::length, kPositive, "\"24 mm\"",
+                "how far the texture goes before it repeats, where the model has no texture coordinates"),
+            quantity("organ.look", "relief", Dim::length, kNotNegative, "\"0.4 mm\"",
+                     "from the lowest to the highest of the height"),
 
             quantity("organ.level", "t", Dim::time, kNotNegative, nullptr, "from when on"),
             plain("organ.level", "level", Kind::integer, {1, kMostLevels}, nullptr,
@@ -338,8 +359,10 @@ std::vector<SceneKey> otherKeys() {
 
         word("look", "mapping", {"one-to-one", "triangle", "curvature"}, "\"curvature\"",
              "how the surface follows the lattice (MS05 3.2, 3.3)"),
-        word("look", "colour", {"tissue", "dynamic-normal", "material"}, "\"tissue\"",
-             "what the surface is coloured by; material: by the material of the cell at each vertex"),
+        word("look", "colour", {"tissue", "dynamic-normal", "material", "plain"}, "\"tissue\"",
+             "what the surface is coloured by; material: by the material of the cell at each vertex; plain: "
+             "its own "
+             "colour, evenly lit by the key light alone"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw tools, bodies and threads"),
@@ -348,6 +371,11 @@ std::vector<SceneKey> otherKeys() {
                  Kind::quantity3),
         plain("look", "section_normal", Kind::number3, kAny, "[0, 0, 1]",
               "points from the plane to what is not drawn"),
+        plain("look", "shadows", Kind::boolean, kAny, "false",
+              "organs and tools throw shadows under the light"),
+        plain("look", "occlusion", Kind::boolean, kAny, "false",
+              "what lies close together is darker, found anew in each picture"),
+        plain("look", "blood", Kind::boolean, kAny, "true", "a film of blood beside cuts"),
 
         plain("output", "size", Kind::integer2, {16, 16384}, "[960, 960]",
               "width and height of pictures in pixels"),
@@ -367,6 +395,8 @@ std::vector<SceneKey> otherKeys() {
         plain("output", "sheet_rows", Kind::integer, {1, 16}, "3", "rows of the contact sheet"),
         quantity("output", "sheet_at", Dim::time, kNotNegative, "[]",
                  "times on the contact sheet; empty: evenly spread", Kind::quantityList),
+        plain("output", "turntable", Kind::integer, {0, 64}, "0",
+              "so many views around the organs at the end, on `turntable.png`"),
     };
 }
 

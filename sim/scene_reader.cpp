@@ -120,6 +120,9 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.read("section_normal", scene.look.sectionNormal));
     if (glm::length(scene.look.sectionNormal) < 1e-9)
         return look.errorAt("section_normal", "has no length");
+    SEROSA_TRY(look.read("shadows", scene.look.shadows));
+    SEROSA_TRY(look.read("occlusion", scene.look.occlusion));
+    SEROSA_TRY(look.read("blood", scene.look.blood));
     return {};
 }
 
@@ -140,6 +143,7 @@ Status readOutput(const SceneTable& table, Scene& scene) {
     SEROSA_TRY(table.read("sheet_columns", output.sheetColumns));
     SEROSA_TRY(table.read("sheet_rows", output.sheetRows));
     SEROSA_TRY(table.read("sheet_at", output.sheetAt));
+    SEROSA_TRY(table.read("turntable", output.turntable));
     return {};
 }
 

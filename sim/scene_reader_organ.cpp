@@ -24,6 +24,35 @@ Status readModel(const SceneTable& table, const fs::path& folder, Organ& organ) 
     return {};
 }
 
+Status readLook(const SceneTable& table, const fs::path& folder, OrganLook& look) {
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.readWord("texture", look.texture));
+    const auto picture = [&](const char* key, fs::path& file, int& line) -> Status {
+        std::string name;
+        SEROSA_TRY(table.read(key, name));
+        if (!table.has(key))
+            return {};
+        if (look.texture != TissueTexture::none)
+            return table.errorAt(key, "stands beside 'texture': keep one of the two");
+        file = fs::path(name).is_absolute() ? fs::path(name) : folder / name;
+        line = table.lineOf(key);
+        std::error_code code;
+        if (!fs::is_regular_file(file, code))
+            return table.errorAt(key, (fs::exists(file, code) ? "is not a file: " : "no such file: ") +
+                                          file.string());
+        return {};
+    };
+    SEROSA_TRY(picture("albedo", look.albedo, look.albedoLine));
+    SEROSA_TRY(picture("normal", look.normal, look.normalLine));
+    SEROSA_TRY(picture("height", look.height, look.heightLine));
+    for (const char* key : {"tile", "relief"})
+        if (table.has(key) && !look.textured())
+            return table.errorAt(key, "has no effect without a texture or a picture: remove it");
+    SEROSA_TRY(table.read("tile", look.tile));
+    SEROSA_TRY(table.read("relief", look.relief));
+    return {};
+}
+
 Status readMethod(const SceneTable& table, Organ& organ) {
     SEROSA_TRY(table.readWord("method", organ.method));
     organ.methodLine = table.lineOf("method");
@@ -102,6 +131,8 @@ Status readOrgan(const SceneSource& source, const toml::table& content, const st
         organ.pose.emplace();
         SEROSA_TRY(poseTable.read("bend_radius", organ.pose->bendRadius));
     }
+    SEROSA_ASSIGN(const toml::table* look, table.table("look"));
+    SEROSA_TRY(readLook({source, "organ.look", path + ".look", look}, folder, organ.look));
     return {};
 }
 

@@ -34,6 +34,7 @@ struct OrganSnapshot {
     std::uint64_t lastCut = 0;        // of the scene's cuts, that met the organ last
     std::uint32_t level = 1;          // of detail, that the state is of
     std::string levelState;           // what else its levels need, in the program's own bytes
+    std::string cutMask;              // what strokes painted, in the drawing's own bytes
 };
 
 struct Snapshot {

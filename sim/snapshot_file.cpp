@@ -17,8 +17,8 @@ namespace {
 
 // As PNG's: not text, and damaged by whatever changes line ends.
 constexpr std::string_view kMagic("\x89SRS\r\n\x1a\n", 8);
-constexpr std::uint32_t kVersion = 3, kOldestVersion = 2;
-// What a state has beside what every one has. Version 2 knew the first alone.
+constexpr std::uint32_t kVersion = 4, kOldestVersion = 2;
+// What a state has beside what every one has. Version 2 knew the first alone; version 3 had no masks.
 constexpr std::uint8_t kHasConnections = 1, kHasEarlier = 2;
 constexpr std::size_t kHeaderBytes = 20;   // magic, version, length of the file
 constexpr std::size_t kChecksumBytes = 16; // of all bytes before it
@@ -227,6 +227,9 @@ bool readBody(ByteReader& in, std::uint32_t version, Snapshot& snapshot) {
     for (ThreadState& thread : snapshot.threads)
         if (!readThread(in, thread))
             return false;
+    for (OrganSnapshot& organ : snapshot.organs)
+        if (version >= 4)
+            organ.cutMask = in.text();
     return !in.failed() && in.left() == 0;
 }
 
@@ -244,6 +247,8 @@ std::string snapshotBytes(const Snapshot& snapshot) {
     body.u32(std::uint32_t(snapshot.threads.size()));
     for (const ThreadState& thread : snapshot.threads)
         writeThread(body, thread);
+    for (const OrganSnapshot& organ : snapshot.organs)
+        body.text(organ.cutMask);
 
     ByteWriter file;
     file.raw(kMagic);
@@ -280,7 +285,7 @@ Result<Snapshot> parseSnapshot(std::string_view bytes, const std::string& name) 
         return wrong("is damaged: its checksum does not fit its bytes" + again);
     if (version < kOldestVersion || version > kVersion)
         return wrong("is a snapshot of format " + std::to_string(version) + ", and this program reads " +
-                     std::to_string(kOldestVersion) + " and " + std::to_string(kVersion) +
+                     std::to_string(kOldestVersion) + " to " + std::to_string(kVersion) +
                      ": go on with the version that wrote it");
     Snapshot snapshot;
     ByteReader in(bytes.substr(0, bodyEnd), kHeaderBytes);

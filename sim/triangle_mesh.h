@@ -14,6 +14,7 @@ struct TriangleMesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::uvec3> faces;    // indices into positions
     std::vector<glm::u8vec3> colours; // sRGB, one a vertex, or empty
+    std::vector<glm::vec2> uvs; // texture coordinates, three a face in the order of its corners, or empty
 
     /// Bounds of all positions; both zero for an empty mesh.
     glm::dvec3 lowest() const;

@@ -133,6 +133,21 @@ TEST_F(MeshReaderErrors, CoordinatesThatAreNoFiniteNumbers) {
     }
 }
 
+TEST_F(MeshReaderErrors, TextureCoordinates) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    refuse("a.obj", vertices + "vt 0 nan\nf 1/1 2/1 3/1\n", ":4: ", "nan");
+    refuse("b.obj", vertices + "vt 0 inf\nf 1/1 2/1 3/1\n", ":4: ", "inf");
+    refuse("c.obj", vertices + "vt\nf 1/1 2/1 3/1\n", ":4: ", "has 0 values");
+    refuse("d.obj", vertices + "vt 0 0\nf 1/1 2/2 3/1\n", ":5: ", "texture coordinate 2, but the file has 1");
+    refuse("e.obj", vertices + "vt 0 0\nf 1/1 2/-2 3/1\n", ":5: ", "before the first texture coordinate");
+    refuse("a.ply",
+           "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "property float u\nproperty float v\nelement face 1\nproperty list uchar int "
+           "vertex_index\nend_header\n"
+           "0 0 0 0 0\n1 0 0 nan 0\n0 1 0 0 0\n3 0 1 2\n",
+           ":13: ", "nan");
+}
+
 TEST_F(MeshReaderErrors, DecimalCommas) {
     const std::string hint = "write decimal points (1.5, not 1,5)";
     refuse("a.obj", replaced(kObj, "v 0 1 0", "v 0 1,5 0"), ":3: '1,5' has a comma", hint);

@@ -54,6 +54,27 @@ TEST_F(MeshReader, ObjCountsBackFromTheLastVertex) {
         read("b.obj", "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"));
 }
 
+TEST_F(MeshReader, ObjTextureCoordinates) {
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    const auto mesh = read("a.obj", vertices + "vt 0 0\nvt 1 0.5 0\nvt 0.25\nf 1/1 2/2/1 4/-1 3/1\n");
+    const std::vector<glm::vec2> uvs{{0, 0}, {1, 0.5}, {0.25, 0}, {0, 0}, {0.25, 0}, {0, 0}};
+    EXPECT_EQ(mesh.uvs, uvs); // three a face, of the fan
+    EXPECT_TRUE(read("b.obj", vertices + "vt 0 0\nf 1/1 2/1 4/1\nf 1 4 3\n").uvs.empty());
+}
+
+TEST_F(MeshReader, PlyTextureCoordinates) {
+    for (const char* names :
+         {"property float s\nproperty float t\n", "property float texture_u\nproperty double texture_v\n"}) {
+        const auto mesh =
+            read("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                          "property float z\n" +
+                              std::string(names) +
+                              "element face 1\nproperty list uchar int vertex_index\nend_header\n"
+                              "0 0 0 0.5 1\n1 0 0 0 0.25\n0 1 0 2 -1\n3 2 0 1\n");
+        EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{2, -1}, {0.5, 1}, {0, 0.25}}));
+    }
+}
+
 TEST_F(MeshReader, ObjColours) {
     const auto mesh = read("a.obj", "v 0 0 0 1 0 0.5\nv 1 0 0 0 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
     ASSERT_EQ(mesh.colours.size(), 3u);

@@ -32,6 +32,7 @@ Snapshot smallSnapshot(const Lattice& lattice) {
         organ.name = name;
         organ.traits = {{"young", "5000 Pa"}, {"poisson", "0.25"}};
         organ.lastCut = 1;
+        organ.cutMask = std::string("mask\0of ", 8) + name;
         sim::CutList cuts;
         EXPECT_TRUE(cuts.cut(*solver, 0, test::fullCut(lattice, 0.3)).ok());
         sim::takeSnapshot(*solver, organ);
@@ -76,6 +77,7 @@ void expectEqual(const Snapshot& a, const Snapshot& b) {
         EXPECT_EQ(x.layers, y.layers);
         EXPECT_EQ(x.impulses, y.impulses);
         EXPECT_EQ(x.lastCut, y.lastCut);
+        EXPECT_EQ(x.cutMask, y.cutMask);
         ASSERT_EQ(x.cuts.size(), y.cuts.size());
         for (std::size_t c = 0; c < x.cuts.size(); ++c) {
             EXPECT_EQ(x.cuts[c].step, y.cuts[c].step);
@@ -281,9 +283,11 @@ TEST(Snapshot, valuesBehindAFittingChecksumAreNotBelieved) {
 TEST(Snapshot, theFormatBeforeIsRead) {
     const Lattice lattice = test::blockLattice(2, 2, 2);
     Snapshot snapshot = smallSnapshot(lattice);
-    snapshot.threads.clear(); // version 2 had none, and no count of them
+    snapshot.threads.clear(); // version 2 had none, and no count of them,
+    for (OrganSnapshot& organ : snapshot.organs)
+        organ.cutMask.clear(); // nor masks
     const auto withoutThreads = [&] {
-        std::string bytes = sim::snapshotBytes(snapshot).erase(sim::snapshotBytes(snapshot).size() - 20, 4);
+        std::string bytes = sim::snapshotBytes(snapshot).erase(sim::snapshotBytes(snapshot).size() - 28, 12);
         bytes[12] = char(bytes.size() & 0xff);
         bytes[13] = char(bytes.size() >> 8 & 0xff);
         bytes[14] = char(bytes.size() >> 16 & 0xff);
@@ -302,7 +306,7 @@ TEST(Snapshot, theFormatBeforeIsRead) {
 TEST(Snapshot, otherFormatIsNamed) {
     std::string bytes = sim::snapshotBytes(smallSnapshot(test::blockLattice(2, 2, 2)));
     bytes[8] = 1;
-    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 2 and 3"),
+    EXPECT_NE(refused(sealed(bytes)).find("is a snapshot of format 1, and this program reads 2 to 4"),
               std::string::npos);
     EXPECT_NE(refused(bytes).find("is damaged"), std::string::npos) << "a flipped bit is no other version";
     EXPECT_NE(refused("ply\nformat ascii 1.0\n").find("is not a snapshot"), std::string::npos);

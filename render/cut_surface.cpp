@@ -1,0 +1,206 @@
+// See render/cut_surface.h. The mapping of a copy is MS05 3.3.1's, eq. 4 to 7, over another triangle.
+#include "render/cut_surface.h"
+
+#include "render/cut_faces.h"
+#include "render/surface_vertices.h"
+#include "render/triangle_basis.h"
+#include "render/triangle_choice.h"
+#include "shaders/shared_constants.h"
+#include "sim/triangle_tree.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+namespace serosa::render {
+
+namespace {
+
+constexpr int kSearch = 3; // spacings
+
+/// Boundary triangles whose nodes all lie on one side of the cuts near by, by the grid cell of their first
+/// node.
+class SideTriangles {
+public:
+    SideTriangles(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections,
+                  const std::vector<float>& sides, int side)
+        : lattice_(lattice) {
+        for (std::uint32_t t = 0; t < lattice.boundary.size(); ++t) {
+            bool all = true;
+            for (int i = 0; i < 3; ++i) {
+                const std::uint32_t node = lattice.boundary[t][i];
+                all = all && connections[node] != 0 && std::abs(sides[node]) < float(SRS_MASK_FAR) &&
+                      (sides[node] < 0) == (side < 0);
+            }
+            if (all)
+                places_[key(lattice.nodes[lattice.boundary[t].x])].push_back(t);
+        }
+    }
+
+    /// The closest to a place (lattice units) that does not face away from `normal`; -1: none near.
+    std::int64_t closest(const glm::dvec3& place, const glm::dvec3& normal, glm::dvec3& weights) const {
+        const glm::ivec3 at = glm::ivec3(glm::floor(place)) + lattice_.centre;
+        double least = kSearch;
+        std::int64_t found = -1;
+        for (int z = -kSearch; z <= kSearch; ++z)
+            for (int y = -kSearch; y <= kSearch; ++y)
+                for (int x = -kSearch; x <= kSearch; ++x) {
+                    const auto bucket = places_.find(key(at + glm::ivec3(x, y, z)));
+                    if (bucket == places_.end())
+                        continue;
+                    for (const std::uint32_t t : bucket->second) {
+                        const auto p = corners(t);
+                        const sim::TrianglePoint nearest =
+                            sim::closestPointOnTriangle(place, p[0], p[1], p[2]);
+                        const double facing =
+                            glm::dot(glm::normalize(triangleNormal(p[0], p[1], p[2])), normal);
+                        const double cost = glm::distance(nearest.point, place) + (facing < -0.2 ? 1.0 : 0.0);
+                        if (cost < least) {
+                            least = cost;
+                            found = t;
+                            weights = nearest.weights;
+                        }
+                    }
+                }
+        return found;
+    }
+
+private:
+    static std::uint64_t key(const glm::ivec3& at) {
+        return std::uint64_t(std::uint32_t(at.x + 64)) << 42 ^ std::uint64_t(std::uint32_t(at.y + 64)) << 21 ^
+               std::uint64_t(std::uint32_t(at.z + 64));
+    }
+    std::array<glm::dvec3, 3> corners(std::uint32_t t) const {
+        const glm::uvec3& nodes = lattice_.boundary[t];
+        return {lattice_.restPosition(nodes.x), lattice_.restPosition(nodes.y),
+                lattice_.restPosition(nodes.z)};
+    }
+
+    const sim::Lattice& lattice_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;
+};
+
+/// A place and a normal over a boundary triangle, in its constant basis; weights as 16 bits hold them.
+VertexBinding bindTo(const sim::Lattice& lattice, const glm::uvec3& triangle, const glm::dvec3& weights,
+                     const glm::dvec3& place, const glm::dvec3& normal) {
+    const int first = diagonalStart(lattice, triangle);
+    VertexBinding binding;
+    std::array<glm::dvec3, 3> p;
+    for (int i = 0; i < 3; ++i) {
+        const int corner = (first + i) % 3;
+        binding.nodes[i] = triangle[corner];
+        binding.weights[i] = float(weights[corner]);
+        p[std::size_t(i)] = lattice.restPosition(triangle[corner]);
+    }
+    for (int i = 0; i < 2; ++i)
+        binding.weights[i] = float(std::round(double(binding.weights[i]) * kWeightSteps) / kWeightSteps);
+    binding.weights.z = 1 - binding.weights.x - binding.weights.y;
+    const TriangleBasis basis = basisAlong(triangleNormal(p[0], p[1], p[2]), p[1] - p[0]);
+    const glm::dvec3 reference =
+        p[2] + double(binding.weights.x) * (p[0] - p[2]) + double(binding.weights.y) * (p[1] - p[2]);
+    binding.offset = glm::vec3(inBasis(basis, place - reference));
+    binding.normal = glm::vec3(inBasis(basis, normal));
+    binding.basis = SRS_BASIS_CONSTANT;
+    return binding;
+}
+
+/// Which of a vertex's nodes, and of the corners of its cell, lie on each side of a cut: bit 0 below, bit 1
+/// above. Bit 2: one of them lost a connection.
+int around(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections,
+           const std::vector<float>& sides, const glm::dvec3& place, const glm::uvec3& nodes) {
+    int found = 0;
+    const auto look = [&](std::int64_t node) {
+        if (node < 0)
+            return;
+        const auto i = std::size_t(node);
+        if (connections[i] != lattice.connections[i])
+            found |= 4;
+        if (std::abs(sides[i]) < float(SRS_MASK_REACH))
+            found |= sides[i] < 0 ? 1 : 2;
+    };
+    for (int i = 0; i < 3; ++i)
+        look(nodes[i]);
+    const glm::ivec3 cell = glm::ivec3(glm::floor(place)) + lattice.centre;
+    for (int c = 0; c < 8; ++c)
+        look(lattice.nodeAt(cell + sim::cornerOffset(c)));
+    return found;
+}
+
+/// Are all nodes of a vertex on one side of the cuts that are near, and still held?
+bool liesOn(const VertexBinding& vertex, const std::vector<std::uint32_t>& connections,
+            const std::vector<float>& sides, int side) {
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t node = vertex.nodes[i];
+        const bool near = std::abs(sides[node]) < float(SRS_MASK_FAR);
+        if (connections[node] == 0 || (near && (sides[node] < 0) != (side < 0)))
+            return false;
+    }
+    return true;
+}
+
+} // namespace
+
+CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                      const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections,
+                      const std::vector<float>& sides) {
+    CutSurface surface;
+    surface.whole = facesLeft(lattice, metres.faces, binding, connections);
+    for (std::uint32_t v = 0; v < binding.vertices.size(); ++v) {
+        bool touched = false;
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t node = binding.vertices[v].nodes[i];
+            touched = touched || connections[node] != lattice.connections[node];
+        }
+        if (touched)
+            surface.touched.push_back(v);
+    }
+    if (sides.empty())
+        return surface;
+
+    const std::array<SideTriangles, 2> triangles = {SideTriangles(lattice, connections, sides, -1),
+                                                    SideTriangles(lattice, connections, sides, 1)};
+    const std::vector<glm::dvec3> normals = metres.vertexNormals();
+    std::vector<int> near(binding.vertices.size());
+    for (std::size_t v = 0; v < near.size(); ++v)
+        near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
+                         binding.vertices[v].nodes);
+
+    std::map<std::pair<std::uint32_t, int>, std::int64_t> copyOf; // -1: that side cannot carry the vertex
+    const auto copy = [&](std::uint32_t v, int side) {
+        const auto [found, fresh] = copyOf.try_emplace({v, side}, -1);
+        if (!fresh)
+            return found->second;
+        if (liesOn(binding.vertices[v], connections, sides, side)) {
+            found->second = std::int64_t(surface.vertices.size());
+            surface.vertices.push_back({v, side, {}});
+            return found->second;
+        }
+        const glm::dvec3 place = lattice.toLattice(metres.positions[v]);
+        glm::dvec3 weights(0);
+        const std::int64_t t = triangles[side > 0].closest(place, normals[v], weights);
+        if (t >= 0) {
+            found->second = std::int64_t(surface.vertices.size());
+            surface.vertices.push_back(
+                {v, side, bindTo(lattice, lattice.boundary[std::size_t(t)], weights, place, normals[v])});
+        }
+        return found->second;
+    };
+    for (std::size_t f = 0; f < metres.faces.size(); ++f) {
+        const glm::uvec3& face = metres.faces[f];
+        const int all = near[face.x] | near[face.y] | near[face.z];
+        if (all != 7)
+            continue;
+        surface.whole[f] = false;
+        for (const int side : {-1, 1}) {
+            const std::int64_t a = copy(face.x, side), b = copy(face.y, side), c = copy(face.z, side);
+            if (a < 0 || b < 0 || c < 0)
+                continue;
+            surface.copies.emplace_back(a, b, c);
+            surface.copied.push_back(std::uint32_t(f));
+        }
+    }
+    return surface;
+}
+
+} // namespace serosa::render

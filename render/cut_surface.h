@@ -1,0 +1,40 @@
+#pragma once
+// The detailed surface along cuts that a mask knows (render/cut_mask.h): a face that a cut crosses is drawn
+// once for each side, all of its vertices carried by nodes of that side alone, and the mask takes from each
+// copy what lies on the other side or in the cut. So nothing is stretched across a gap, and the lips are as
+// smooth as the mask.
+
+#include "render/surface_binding.h"
+#include "sim/lattice.h"
+#include "sim/triangle_mesh.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace serosa::render {
+
+/// A vertex as one side of a cut carries it.
+struct CutVertex {
+    std::uint32_t vertex = 0; // of the mesh
+    int side = 0;             // 1 or -1
+    std::optional<VertexBinding>
+        binding; // in the constant basis, exact at rest; none: as the vertex is bound
+};
+
+struct CutSurface {
+    std::vector<bool> whole;            // one flag a face of the mesh: drawn as it is
+    std::vector<CutVertex> vertices;    // of the copies
+    std::vector<glm::uvec3> copies;     // faces over `vertices`
+    std::vector<std::uint32_t> copied;  // the mesh face of each
+    std::vector<std::uint32_t> touched; // mesh vertices of which a node lost a connection
+};
+
+/// \param connections 18 bits a node. \param sides signed distances of the nodes to the nearest cut, spacings
+/// (CutMask::nodeSides), or empty: no blade cut, and faces that springs no longer hold are left out (as
+/// facesLeft). A face is left out on a side where no boundary triangle within 3 spacings is all on that side.
+CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                      const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections,
+                      const std::vector<float>& sides);
+
+} // namespace serosa::render
