@@ -83,7 +83,10 @@ private:
     /// The scene's cuts and tears of the frame that ends now.
     void cut(std::size_t organ);
     /// Lets the renderer draw what cuts left, if they changed anything. Reads the bits back (stalls).
-    void showCuts(std::size_t organ);
+    /// \param inMotion the surface goes over to what is left; else it is drawn so at once
+    void showCuts(std::size_t organ, bool inMotion = false);
+    /// What a snapshot says of what still fades.
+    void restoreBlend(std::size_t organ, const LevelState& state);
 
     RunParts& parts_;
     int frame_ = 0;

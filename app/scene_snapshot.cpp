@@ -215,6 +215,7 @@ void ScenePlayer::restore(const sim::Snapshot& snapshot) {
             const Status done = sim::restoreSnapshot(organ, *parts.solver);
             SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
             showCuts(i);
+            restoreBlend(i, *levels);
             if (guards_[i])
                 guards_[i]->restart(frame_);
         } else {

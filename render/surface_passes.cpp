@@ -4,11 +4,15 @@
 #include "gpu/gl.h"
 #include "render/baked_occlusion.h"
 #include "render/surface_vertices.h"
+#include "shaders/mapping_constants.h"
 #include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 namespace serosa::render {
 
@@ -16,8 +20,6 @@ namespace {
 
 using sim::SurfaceColour;
 
-constexpr SurfaceStage kStages[] = {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected,
-                                    SurfaceStage::nodes};
 constexpr int kCapturedBytes = 24;         // position and normal of a vertex
 constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB of kFleshColour, where the mesh has no colours
 
@@ -48,22 +50,76 @@ std::vector<T> inNewOrder(const std::vector<T>& items, const std::vector<std::ui
     return ordered;
 }
 
-gpu::ShaderDefine stageDefine(SurfaceStage stage) {
-    return stage == SurfaceStage::nodes        ? gpu::ShaderDefine{"SURFACE_NODES", ""}
-           : stage == SurfaceStage::undeformed ? gpu::ShaderDefine{"SURFACE_STATIC", ""}
-                                               : gpu::ShaderDefine{"SURFACE_MAPPED", ""};
+/// The define MAPPING of a stage.
+int mappingOf(SurfaceStage stage, bool anyConstant) {
+    switch (stage) {
+    case SurfaceStage::corrected:
+        return anyConstant ? SRS_MAP_EITHER : SRS_MAP_CORRECTED;
+    case SurfaceStage::chosen:
+        return SRS_MAP_BLENDED;
+    case SurfaceStage::alongNormal:
+        return SRS_MAP_NORMAL;
+    case SurfaceStage::nodeFrames:
+        return SRS_MAP_FRAMES;
+    case SurfaceStage::inCells:
+        return SRS_MAP_CELLS;
+    default:
+        return SRS_MAP_CONSTANT;
+    }
+}
+
+bool isMapped(SurfaceStage stage) {
+    return stage != SurfaceStage::undeformed && stage != SurfaceStage::nodes;
+}
+
+/// Attributes from 3 on are those of all mapped vertices.
+template <class Vertex, class Base = Vertex>
+void attributesOf(gpu::VertexArray& array, const gpu::Buffer& buffer) {
+    array.integerAttribute(3, buffer, 1, GL_UNSIGNED_INT, sizeof(Vertex), offsetof(Base, normal));
+    array.attribute(4, buffer, 4, GL_UNSIGNED_BYTE, true, sizeof(Vertex), offsetof(Base, colour));
 }
 
 } // namespace
 
+SurfaceStage stageOf(sim::Mapping mapping) {
+    switch (mapping) {
+    case sim::Mapping::oneToOne:
+        return SurfaceStage::nodes;
+    case sim::Mapping::triangle:
+        return SurfaceStage::constant;
+    case sim::Mapping::chosen:
+        return SurfaceStage::chosen;
+    case sim::Mapping::normalOffset:
+        return SurfaceStage::alongNormal;
+    case sim::Mapping::trilinear:
+        return SurfaceStage::inCells;
+    case sim::Mapping::nodeFrames:
+        return SurfaceStage::nodeFrames;
+    case sim::Mapping::curvature:
+        break;
+    }
+    return SurfaceStage::corrected;
+}
+
+std::vector<SurfaceStage> SurfacePasses::mappedStages() const {
+    std::vector<SurfaceStage> stages;
+    for (const auto& [stage, geometry] : geometry_)
+        if (isMapped(stage))
+            stages.push_back(stage);
+    return stages;
+}
+
 std::vector<gpu::ShaderDefine> SurfacePasses::defines(SurfaceStage stage) const {
-    const bool corrected = stage == SurfaceStage::corrected;
-    return {stageDefine(stage), {"MAPPING_BASIS", !corrected ? "0" : anyConstant_ ? "2" : "1"}};
+    if (stage == SurfaceStage::nodes)
+        return {{"SURFACE_NODES", ""}};
+    if (stage == SurfaceStage::undeformed)
+        return {{"SURFACE_STATIC", ""}};
+    return {{"MAPPING", std::to_string(mappingOf(stage, anyConstant_))}};
 }
 
 Result<SurfacePasses::Programs> SurfacePasses::compile(const gpu::ShaderLibrary& library) const {
     Programs programs;
-    for (const SurfaceStage stage : kStages)
+    for (const auto& [stage, geometry] : geometry_)
         for (const SurfaceColour colour : {SurfaceColour::tissue, SurfaceColour::dynamicNormal}) {
             std::vector<gpu::ShaderDefine> all = defines(stage);
             if (colour == SurfaceColour::dynamicNormal)
@@ -80,7 +136,7 @@ Status SurfacePasses::prepareBlend() {
     if (!blendStarts_.empty())
         return {};
     const gpu::ShaderLibrary library;
-    for (const SurfaceStage stage : {SurfaceStage::constant, SurfaceStage::corrected}) {
+    for (const SurfaceStage stage : mappedStages()) {
         std::vector<gpu::ShaderDefine> all = defines(stage);
         SEROSA_ASSIGN(gpu::Program start,
                       gpu::Program::create(library, {"lod_blend.vert"}, all, {"v_offset", "v_normal"}));
@@ -101,7 +157,7 @@ Status SurfacePasses::prepareBlend() {
 }
 
 Status SurfacePasses::createCaptures() {
-    for (const SurfaceStage stage : kStages) {
+    for (const auto& [stage, geometry] : geometry_) {
         SEROSA_ASSIGN(gpu::Program capture, gpu::Program::create(gpu::ShaderLibrary(), {"surface.vert"},
                                                                  defines(stage), {"v_position", "v_normal"}));
         captures_.emplace(stage, std::move(capture));
@@ -109,52 +165,88 @@ Status SurfacePasses::createCaptures() {
     return {};
 }
 
-void SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                   const SurfaceBinding& binding, const sim::TextureLayout& layout) {
-    const CacheOrder order = cacheOrder(metres);
-    newIndex_ = order.newIndex;
-    indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(order.indices));
-    indexCount_ = int(order.indices.size());
-    const std::vector<glm::u8vec4> colours = vertexColours(metres);
-
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
-        const bool given = mapping == binding.mapping;
-        const auto vertices =
-            inNewOrder(mappedVertices(given ? binding : expressBinding(binding, lattice, metres, mapping),
-                                      layout, colours),
-                       newIndex_);
-        Geometry& geometry =
-            geometry_[mapping == sim::Mapping::triangle ? SurfaceStage::constant : SurfaceStage::corrected];
-        geometry.vertices = gpu::Buffer("mapped surface", std::span<const MappedVertex>(vertices));
-        geometry.array = gpu::VertexArray("mapped surface");
-        const int stride = sizeof(MappedVertex);
+/// The vertex buffer of the binding's mapping.
+Status SurfacePasses::createMapped(const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+    const SurfaceStage stage = stageOf(binding.mapping);
+    Geometry& geometry = geometry_[stage];
+    geometry.array = gpu::VertexArray("mapped surface");
+    const auto upload = [&](const auto& vertices) {
+        using Vertex = typename std::decay_t<decltype(vertices)>::value_type;
+        const std::vector<Vertex> ordered = inNewOrder(vertices, newIndex_);
+        geometry.vertices = gpu::Buffer("mapped surface", std::span<const Vertex>(ordered));
+        using Base = std::conditional_t<std::is_same_v<Vertex, ChosenVertex>, MappedVertex, Vertex>;
+        attributesOf<Vertex, Base>(geometry.array, geometry.vertices);
+    };
+    if (stage == SurfaceStage::inCells) {
+        upload(cellVertices(binding, colours_));
+        constexpr int kStride = sizeof(CellVertex);
+        geometry.array.integerAttribute(0, geometry.vertices, 1, GL_UNSIGNED_INT, kStride,
+                                        offsetof(CellVertex, cell));
+        geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, kStride, offsetof(CellVertex, at));
+        const std::vector<glm::uvec4> texels = cellTexels(binding.cells, layout);
+        cells_ = gpu::Texture2D("cells", GL_RGBA32UI, SRS_CELLS_WIDTH, int(texels.size() / SRS_CELLS_WIDTH));
+        cells_.upload(texels.data());
+    } else if (stage == SurfaceStage::alongNormal) {
+        upload(normalVertices(binding, layout, colours_));
+        constexpr int kStride = sizeof(NormalVertex);
+        geometry.array.integerAttribute(0, geometry.vertices, 3, GL_UNSIGNED_INT, kStride,
+                                        offsetof(NormalVertex, texels));
+        geometry.array.attribute(1, geometry.vertices, 2, GL_FLOAT, false, kStride,
+                                 offsetof(NormalVertex, weights));
+        geometry.array.attribute(2, geometry.vertices, 1, GL_FLOAT, false, kStride,
+                                 offsetof(NormalVertex, distance));
+    } else {
+        const bool chosen = stage == SurfaceStage::chosen;
+        const int stride = chosen ? sizeof(ChosenVertex) : sizeof(MappedVertex);
+        if (chosen)
+            upload(chosenVertices(binding, layout, colours_));
+        else
+            upload(mappedVertices(binding, layout, colours_));
         geometry.array.integerAttribute(0, geometry.vertices, 3, GL_UNSIGNED_INT, stride,
                                         offsetof(MappedVertex, texels));
         geometry.array.attribute(1, geometry.vertices, 2, GL_UNSIGNED_SHORT, true, stride,
                                  offsetof(MappedVertex, weights));
         geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
                                  offsetof(MappedVertex, offset));
-        geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
-                                        offsetof(MappedVertex, normal));
-        geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
-                                 offsetof(MappedVertex, colour));
-        geometry.array.indices(indices_);
+        if (chosen)
+            geometry.array.attribute(7, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
+                                     sizeof(MappedVertex));
     }
+    geometry.array.indices(indices_);
+    if (stage == SurfaceStage::nodeFrames && frames_) {
+        frames_->update(binding.frames, layout);
+    } else if (stage == SurfaceStage::nodeFrames) {
+        SEROSA_ASSIGN(FramePass pass, FramePass::create(binding.frames, layout));
+        frames_.emplace(std::move(pass));
+    }
+    return {};
+}
 
-    const auto still = inNewOrder(staticVertices(lattice, metres, colours), newIndex_);
+Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+    const CacheOrder order = cacheOrder(metres);
+    newIndex_ = order.newIndex;
+    indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(order.indices));
+    indexCount_ = int(order.indices.size());
+    colours_ = vertexColours(metres);
+
+    SEROSA_TRY(createMapped(binding, layout));
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
+        if (mapping != binding.mapping)
+            SEROSA_TRY(createMapped(expressBinding(binding, lattice, metres, mapping), layout));
+
+    const auto still = inNewOrder(staticVertices(lattice, metres, colours_), newIndex_);
     Geometry& geometry = geometry_[SurfaceStage::undeformed];
     geometry.vertices = gpu::Buffer("undeformed surface", std::span<const StaticVertex>(still));
     geometry.array = gpu::VertexArray("undeformed surface");
     const int stride = sizeof(StaticVertex);
     geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
                              offsetof(StaticVertex, position));
-    geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
-                                    offsetof(StaticVertex, normal));
-    geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
-                             offsetof(StaticVertex, colour));
+    attributesOf<StaticVertex>(geometry.array, geometry.vertices);
     geometry.array.indices(indices_);
 
     createNodes(lattice.boundary, layout);
+    return {};
 }
 
 /// One-to-one: the boundary's triangles, one vertex a surface node.
@@ -186,10 +278,30 @@ void SurfacePasses::show(const std::vector<glm::uvec3>& faces, const std::vector
             indices.push_back(newIndex_[faces[f][i]]);
     indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(indices));
     indexCount_ = int(indices.size());
-    for (const SurfaceStage stage :
-         {SurfaceStage::constant, SurfaceStage::corrected, SurfaceStage::undeformed})
-        geometry_.at(stage).array.indices(indices_);
+    for (auto& [stage, geometry] : geometry_)
+        if (stage != SurfaceStage::nodes)
+            geometry.array.indices(indices_);
     createNodes(boundary, layout);
+}
+
+Status SurfacePasses::rebind(const std::vector<SurfaceBinding>& bindings, const sim::TextureLayout& layout) {
+    blendStage_.reset();
+    bool anyConstant = anyConstant_;
+    for (const SurfaceBinding& binding : bindings) {
+        SEROSA_CHECK(draws(stageOf(binding.mapping)), "a mapping that was prepared");
+        SEROSA_TRY(createMapped(binding, layout));
+        anyConstant =
+            anyConstant || (binding.mapping == sim::Mapping::curvature && binding.constantVertices > 0);
+    }
+    if (!std::exchange(anyConstant_, anyConstant) && anyConstant) { // the first to need it
+        blendStarts_.clear();
+        blendCaptures_.clear();
+        blendPrograms_.clear();
+        captures_.clear();
+        SEROSA_ASSIGN(programs_, compile(gpu::ShaderLibrary()));
+        SEROSA_TRY(createCaptures());
+    }
+    return {};
 }
 
 Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
@@ -198,14 +310,27 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     SurfacePasses passes;
     const bool corrected = binding.mapping == sim::Mapping::curvature;
     passes.anyConstant_ = !corrected || binding.constantVertices > 0;
+    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
     SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
     SEROSA_TRY(passes.createCaptures());
-    passes.createGeometry(lattice, metres, binding, layout);
     return passes;
+}
+
+void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& state, SurfaceStage stage) {
+    if (stage == SurfaceStage::undeformed)
+        return;
+    program.texture("t_positions", state.positions());
+    if (stage == SurfaceStage::inCells)
+        program.texture("t_cells", cells_);
+    if (stage == SurfaceStage::nodeFrames) {
+        frames_->run(state.positions());
+        program.texture("t_frames", frames_->frames());
+    }
 }
 
 gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                                      SurfaceColour colour, const glm::vec3& bare) {
+    SEROSA_CHECK(draws(stage), "a mapping that was prepared");
     // Colours of materials are those of the vertices, as the tissue's are.
     gpu::Program& program =
         (blends(stage) ? blendPrograms_ : programs_)
@@ -214,8 +339,7 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
         setBlendUniforms(program);
     program.set("u_clipFromLattice", frame.clipFromLattice);
     program.set("u_section", frame.section);
-    if (stage != SurfaceStage::undeformed)
-        program.texture("t_positions", state.positions());
+    setNodes(program, state, stage);
     if (stage == SurfaceStage::nodes)
         program.set("u_colour", glm::vec4(glm::sqrt(bare), 1));
     frame.setLight(program);
@@ -276,13 +400,28 @@ gpu::Buffer SurfacePasses::shown(const sim::StateTextures& state, SurfaceStage s
     gpu::Program& program = (blends(stage) ? blendCaptures_ : captures_).at(stage);
     program.set("u_clipFromLattice", glm::mat4(1));
     program.set("u_section", glm::vec4(0));
-    if (stage != SurfaceStage::undeformed)
-        program.texture("t_positions", state.positions());
+    setNodes(program, state, stage);
     if (blends(stage))
         setBlendUniforms(program);
     gpu::Buffer captured("captured vertices", newIndex_.size() * kCapturedBytes, nullptr);
     feedBack(stage, program, captured);
     return captured;
+}
+
+Result<std::vector<glm::mat3>> SurfacePasses::captureAxes(const sim::StateTextures& state,
+                                                          SurfaceStage stage) {
+    SEROSA_CHECK(isMapped(stage) && draws(stage), "a mapping that was prepared");
+    SEROSA_ASSIGN(gpu::Program program,
+                  gpu::Program::create(gpu::ShaderLibrary(), {"mapped_axes.vert"}, defines(stage),
+                                       {"v_tangent", "v_axis", "v_bitangent"}));
+    setNodes(program, state, stage);
+    std::vector<glm::mat3> captured(newIndex_.size()), axes;
+    const gpu::Buffer buffer("captured axes", captured.size() * sizeof captured[0], nullptr);
+    feedBack(stage, program, buffer);
+    buffer.download(0, buffer.bytes(), captured.data());
+    for (const std::uint32_t index : newIndex_)
+        axes.push_back(captured[index]);
+    return axes;
 }
 
 void SurfacePasses::attachBlend(SurfaceStage stage, const gpu::Buffer& buffer) {
@@ -296,7 +435,7 @@ void SurfacePasses::startBlend(const sim::StateTextures& state, SurfaceStage sta
     gpu::Program& program = blendStarts_.at(stage);
     attachBlend(stage, shown);
     program.set("u_shownScale", scale).set("u_shownShift", shift);
-    program.texture("t_positions", state.positions());
+    setNodes(program, state, stage);
     blend_ = gpu::Buffer("switch of detail", newIndex_.size() * kCapturedBytes, nullptr);
     feedBack(stage, program, blend_);
     attachBlend(stage, blend_);

@@ -1,10 +1,11 @@
 #include "render/surface_vertices.h"
 
-#include "shaders/shared_constants.h"
+#include "shaders/mapping_constants.h"
 #include "sim/packed_normal.h"
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace serosa::render {
@@ -26,14 +27,59 @@ std::vector<MappedVertex> mappedVertices(const SurfaceBinding& binding, const si
         MappedVertex& vertex = vertices[v];
         for (int i = 0; i < 3; ++i)
             vertex.texels[i] = texel(layout, bound.nodes[i]);
-        vertex.weights = {std::lround(double(bound.weights.x) * kWeightSteps),
-                          std::lround(double(bound.weights.y) * kWeightSteps)};
+        vertex.weights = {std::lround(double(bound.weights.x) * SRS_WEIGHT_STEPS),
+                          std::lround(double(bound.weights.y) * SRS_WEIGHT_STEPS)};
         vertex.offset = bound.offset;
-        vertex.normal =
-            sim::packNormal(bound.normal) | (bound.basis == SRS_BASIS_CORRECTED ? kCorrectedBit : 0U);
+        vertex.normal = sim::packNormal(bound.normal) | (bound.correctedShare == 1 ? kCorrectedBit : 0U);
         vertex.colour = colours[v];
     }
     return vertices;
+}
+
+std::vector<ChosenVertex> chosenVertices(const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                         const std::vector<glm::u8vec4>& colours) {
+    std::vector<ChosenVertex> vertices;
+    for (const MappedVertex& mapped : mappedVertices(binding, layout, colours)) {
+        const VertexBinding& bound = binding.vertices[vertices.size()];
+        const glm::dvec4 shares(bound.normalShares, bound.correctedShare);
+        vertices.push_back({mapped, glm::u8vec4(glm::round(shares * SRS_SHARE_STEPS))});
+    }
+    return vertices;
+}
+
+std::vector<NormalVertex> normalVertices(const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                         const std::vector<glm::u8vec4>& colours) {
+    std::vector<NormalVertex> vertices;
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
+        const VertexBinding& bound = binding.vertices[v];
+        const NormalOffset& along = binding.alongNormal[v];
+        vertices.push_back(
+            {{texel(layout, bound.nodes.x), texel(layout, bound.nodes.y), texel(layout, bound.nodes.z)},
+             glm::vec2(along.weights),
+             along.distance,
+             sim::packNormal(bound.normal) | (along.corrected ? kCorrectedBit : 0U),
+             colours[v]});
+    }
+    return vertices;
+}
+
+std::vector<CellVertex> cellVertices(const SurfaceBinding& binding, const std::vector<glm::u8vec4>& colours) {
+    std::vector<CellVertex> vertices;
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v)
+        vertices.push_back({binding.cells.vertices[v].cell, binding.cells.vertices[v].at,
+                            sim::packNormal(binding.vertices[v].normal), colours[v]});
+    return vertices;
+}
+
+std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureLayout& layout) {
+    std::vector<glm::uvec4> texels;
+    for (const auto& corners : cells.corners)
+        for (std::size_t half = 0; half < 8; half += 4)
+            texels.emplace_back(texel(layout, corners[half]), texel(layout, corners[half + 1]),
+                                texel(layout, corners[half + 2]), texel(layout, corners[half + 3]));
+    const std::size_t rows = (texels.size() + SRS_CELLS_WIDTH - 1) / SRS_CELLS_WIDTH;
+    texels.resize(std::max<std::size_t>(rows, 1) * SRS_CELLS_WIDTH);
+    return texels;
 }
 
 std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,

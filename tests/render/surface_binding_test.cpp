@@ -2,7 +2,6 @@
 #include "render/mapping_measures.h"
 #include "render/surface_binding.h"
 #include "render/triangle_choice.h"
-#include "shaders/shared_constants.h"
 #include "sim/solver.h"
 #include "tests/render/shapes.h"
 
@@ -82,7 +81,7 @@ TEST(SurfaceBinding, StraightUpOffsetFollowsTheNormalByHand) {
     mesh.faces = {{0, 2, 1}};
     const SurfaceBinding binding = bindSurface(lattice, mesh, sim::Mapping::triangle);
     EXPECT_NEAR(binding.vertices[0].offset.y, 0.25, 1e-6);
-    EXPECT_EQ(binding.vertices[0].basis, SRS_BASIS_CONSTANT);
+    EXPECT_EQ(binding.vertices[0].correctedShare, 0);
     const auto turn = [](const glm::dvec3& q) { return glm::dvec3(q.x, -q.z, q.y); };
     const sim::LatticeState state = deformedState(lattice, turn);
     const glm::dvec3 moved = mapSurface(binding, state.positions, state.normals)[0];
@@ -99,9 +98,9 @@ TEST(SurfaceBinding, ConstantBasisWhereANodeHasNoNormal) {
         for (int i = 0; i < 3; ++i)
             defined = defined && glm::length(sums[vertex.nodes[i]]) >= 0.5;
         if (!defined) {
-            EXPECT_EQ(vertex.basis, SRS_BASIS_CONSTANT);
+            EXPECT_EQ(vertex.correctedShare, 0);
         }
-        constant += vertex.basis == SRS_BASIS_CONSTANT;
+        constant += vertex.correctedShare == 0;
     }
     EXPECT_EQ(bound.binding.constantVertices, constant);
     EXPECT_GT(constant, 0U);
@@ -114,7 +113,7 @@ TEST(SurfaceBinding, ExpressingAnewGivesTheSameAsBinding) {
         expressBinding(corrected.binding, corrected.lattice, corrected.mesh, sim::Mapping::triangle);
     for (std::size_t v = 0; v < other.vertices.size(); ++v) {
         EXPECT_EQ(other.vertices[v].offset, constant.binding.vertices[v].offset);
-        EXPECT_EQ(other.vertices[v].basis, SRS_BASIS_CONSTANT);
+        EXPECT_EQ(other.vertices[v].correctedShare, 0);
     }
 }
 
