@@ -1,7 +1,6 @@
 // MS05 3.5 and 3.6. See render/basis_choice.h.
 #include "render/basis_choice.h"
 
-#include "base/check.h"
 #include "render/triangle_basis.h"
 #include "sim/packed_normal.h"
 
@@ -14,6 +13,8 @@ namespace {
 constexpr double kShortestSum = 0.5;   // of eq. 3 at a node: one-node-thin sheets
 constexpr double kShortestMean = 0.35; // of eq. 8's N_c: nodes whose normals oppose
 constexpr double kSmallestSine = 0.3;  // between N_c and the first edge
+
+constexpr double kFlatSum = 3.8; // eq. 3's sum on a flat face
 
 // The hand-over of `chosen`: from none to all of the corrected basis.
 constexpr glm::dvec2 kSum(0.5, 1.5);      // length of eq. 3's sum
@@ -29,19 +30,23 @@ double over(const glm::dvec2& range, double value) {
 
 } // namespace
 
-RestNormals::RestNormals(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections) {
-    SEROSA_CHECK(connections.empty() || connections.size() == lattice.nodeCount(),
-                 "connections of all nodes");
-    const std::vector<std::uint32_t>& left = connections.empty() ? lattice.connections : connections;
-    for (std::size_t node = 0; node < lattice.nodeCount(); ++node) {
-        glm::dvec3 sum(0);
-        for (std::size_t d = 0; d < sim::kNeighbourOffsets.size(); ++d)
-            if ((left[node] >> d) & 1U)
-                sum -= glm::normalize(glm::dvec3(sim::kNeighbourOffsets[d]));
-        normals_.emplace_back(sim::unpackNormal(sim::packNormal(glm::vec3(sum))));
-        lengths_.push_back(glm::length(sum));
-        if (!connections.empty())
-            cut_.push_back(left[node] != lattice.connections[node]);
+RestNormals::RestNormals(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections)
+    : RestNormals(controlNodes(lattice, connections)) {
+    for (std::size_t node = 0; node < connections.size(); ++node)
+        cut_.push_back(connections[node] != lattice.connections[node]);
+}
+
+RestNormals::RestNormals(const ControlNodes& nodes) {
+    std::vector<double> areas(nodes.count());
+    for (const glm::uvec3& t : nodes.triangles)
+        for (int i = 0; i < 3; ++i)
+            areas[t[i]] += glm::length(triangleNormal(nodes.rest[t.x], nodes.rest[t.y], nodes.rest[t.z]));
+    const std::vector<glm::dvec3> sums = normalSums(nodes, nodes.rest);
+    for (std::size_t node = 0; node < nodes.count(); ++node) {
+        normals_.emplace_back(sim::unpackNormal(sim::packNormal(glm::vec3(sums[node]))));
+        const double length = glm::length(sums[node]);
+        lengths_.push_back(nodes.normalsOfTriangles ? kFlatSum * length / std::max(areas[node], 1e-30)
+                                                    : length);
     }
 }
 

@@ -3,6 +3,7 @@
 // normals (eq. 8), or a share of both. MS05 3.5 says where eq. 3's normals are no normals (one-node-thin
 // sheets), and where the correction is not needed; 3.6 proposes the choice per vertex.
 
+#include "render/control_nodes.h"
 #include "sim/lattice.h"
 
 #include <glm/glm.hpp>
@@ -17,6 +18,9 @@ class RestNormals {
 public:
     /// \param connections 18 bits a node; empty: those of the lattice
     explicit RestNormals(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections = {});
+    /// Of any nodes. Where normals are those of triangles, the length says how far these agree: 3.8 if all
+    /// do.
+    explicit RestNormals(const ControlNodes& nodes);
 
     /// Unit, as packed.
     const glm::dvec3& normal(std::uint32_t node) const { return normals_[node]; }

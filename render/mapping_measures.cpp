@@ -211,6 +211,7 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
     const sim::Lattice lattice = sim::latticeFromCells(
         {{{0, 0, 0}, kFull}, {{1, 0, 0}, kFull}, {{0, 1, 0}, kFull}, {{1, 1, 0}, kFull}}, 1.0, glm::dvec3(0));
 
+    const ControlNodes control = controlNodes(lattice);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> sharing;
     for (std::uint32_t t = 0; t < lattice.boundary.size(); ++t)
         for (int i = 0; i < 3; ++i) {
@@ -235,7 +236,7 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
         const glm::dvec3 up = glm::normalize(normalOf(triangles.at(0)) + normalOf(triangles.at(1)));
         for (const std::uint32_t t : {triangles[0], triangles[1]}) {
             VertexBinding vertex{};
-            const int first = diagonalStart(lattice, lattice.boundary[t]);
+            const int first = diagonalStart(control, lattice.boundary[t]);
             for (int i = 0; i < 3; ++i)
                 vertex.nodes[i] = lattice.boundary[t][(first + i) % 3];
             for (int i = 0; i < 3; ++i)

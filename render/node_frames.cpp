@@ -15,8 +15,8 @@ namespace serosa::render {
 namespace {
 
 constexpr std::uint32_t kOffset = 0x100000; // of 21 bits
-constexpr double kFlat = 1e-3; // least eigenvalue of the neighbours' spread over the largest: below, they
-                               // have no extent that way (at least 0.05 where they have, on the lattice)
+constexpr double kFlat = 0.02; // least eigenvalue of the neighbours' spread over the largest: below, they
+                               // have no extent that way (on the lattice it is 0, or 0.08 at least)
 
 /// Vectors g_j with sum_j d_j g_j^T = 1 on the span of the neighbours' offsets d_j; empty where that is less
 /// than a plane.
@@ -145,6 +145,22 @@ FrameStencil frameStencil(const sim::Lattice& lattice, const std::vector<std::ui
         stencil.rows.push_back(
             {node, centre, std::uint32_t(stencil.terms.size()), std::uint32_t(terms.size())});
         stencil.terms.insert(stencil.terms.end(), terms.begin(), terms.end());
+    }
+    return stencil;
+}
+
+FrameStencil frameStencil(const ControlNodes& nodes) {
+    FrameStencil stencil;
+    stencil.nodes = nodes.count();
+    for (std::uint32_t node = 0; node < nodes.count(); ++node) {
+        std::vector<glm::dvec3> offsets;
+        const std::uint32_t begin = nodes.neighbourBegin[node], end = nodes.neighbourBegin[node + 1];
+        for (std::uint32_t i = begin; i < end; ++i)
+            offsets.push_back(nodes.rest[nodes.neighbours[i]] - nodes.rest[node]);
+        const std::vector<glm::vec3> g = gradients(offsets);
+        stencil.rows.push_back({node, node, std::uint32_t(stencil.terms.size()), std::uint32_t(g.size())});
+        for (std::size_t i = 0; i < g.size(); ++i)
+            stencil.terms.push_back({nodes.neighbours[begin + i], g[i]});
     }
     return stencil;
 }

@@ -7,6 +7,7 @@
 // node is joined to; its rotation R maximizes tr(R^T F). Exact at rest, under rigid motion and under even
 // stretch, where F is the stretch whatever neighbours there are. Twin of shaders/node_frames.comp.
 
+#include "render/control_nodes.h"
 #include "sim/lattice.h"
 
 #include <glm/glm.hpp>
@@ -35,9 +36,9 @@ struct FrameStencil {
         std::uint32_t node; // x_j
         glm::vec3 gradient; // g_j, 1 / lattice unit
     };
-    std::vector<Row> rows; // one a node of the lattice's boundary, rising
+    std::vector<Row> rows; // one a node of the triangles, rising
     std::vector<Term> terms;
-    std::size_t nodes = 0; // of the lattice
+    std::size_t nodes = 0; // of all
 };
 
 /// Neighbours in a plane (one-node-thin sheets) still give a rotation: that of the plane. A node whose
@@ -46,7 +47,11 @@ struct FrameStencil {
 /// \param connections 18 bits a node, what cuts left of the lattice's; empty: all of them
 FrameStencil frameStencil(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections = {});
 
-/// Packed frames, one a node of the lattice; nodes without a row are not turned.
+/// Of any nodes: neighbours are those that it says, each node takes its own frame (none where they lie on a
+/// line). A surface's nodes follow the plane of their neighbours.
+FrameStencil frameStencil(const ControlNodes& nodes);
+
+/// Packed frames, one a node; nodes without a row are not turned.
 /// \param positions of all nodes, lattice units
 std::vector<glm::uvec2> nodeFrames(const FrameStencil& stencil, const std::vector<glm::dvec3>& positions);
 

@@ -9,8 +9,10 @@
 #include "render/triangle_basis.h"
 #include "render/triangle_choice.h"
 #include "shaders/mapping_constants.h"
+#include "sim/triangle_tree.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace serosa::render {
 
@@ -24,10 +26,9 @@ glm::dvec3 exactWeights(const glm::vec3& weights) {
     return {w1, w2, 1 - w1 - w2};
 }
 
-BoundPoint boundPoint(const VertexBinding& bound, const sim::Lattice& lattice, const glm::dvec3& vertex) {
+BoundPoint boundPoint(const VertexBinding& bound, const ControlNodes& nodes, const glm::dvec3& vertex) {
     return {bound.nodes,
-            {lattice.restPosition(bound.nodes.x), lattice.restPosition(bound.nodes.y),
-             lattice.restPosition(bound.nodes.z)},
+            {nodes.rest[bound.nodes.x], nodes.rest[bound.nodes.y], nodes.rest[bound.nodes.z]},
             exactWeights(bound.weights),
             vertex};
 }
@@ -95,17 +96,17 @@ std::size_t bytesOf(Mapping mapping) {
                                               : sizeof(MappedVertex);
 }
 
-void expressAll(SurfaceBinding& binding, const sim::Lattice& lattice,
-                const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& normals,
-                Mapping mapping, const std::vector<std::uint32_t>& connections = {}) {
+/// What one of them needs beside the vertices is left to the caller: cells and frames.
+void expressVertices(SurfaceBinding& binding, const ControlNodes& nodes, const RestNormals& rest,
+                     const sim::TriangleMesh& metres, Mapping mapping) {
     SEROSA_CHECK(mapping != Mapping::oneToOne, "one-to-one draws the nodes themselves and has no binding");
-    const RestNormals rest(lattice, connections);
+    const std::vector<glm::dvec3> normals = metres.vertexNormals();
     binding.mapping = mapping;
-    binding.alongNormal.assign(mapping == Mapping::normalOffset ? positions.size() : 0, {});
-    parallelFor(positions.size(), [&](std::size_t begin, std::size_t end) {
+    binding.alongNormal.assign(mapping == Mapping::normalOffset ? normals.size() : 0, {});
+    parallelFor(normals.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             VertexBinding& bound = binding.vertices[v];
-            const BoundPoint point = boundPoint(bound, lattice, positions[v]);
+            const BoundPoint point = boundPoint(bound, nodes, nodes.toNodes(metres.positions[v]));
             if (mapping == Mapping::normalOffset)
                 binding.alongNormal[v] = expressAlongNormal(bound, rest, point, normals[v]);
             else
@@ -118,42 +119,55 @@ void expressAll(SurfaceBinding& binding, const sim::Lattice& lattice,
         binding.constantVertices += bases && bound.correctedShare == 0;
         binding.blendedVertices += bound.correctedShare > 0 && bound.correctedShare < 1;
     }
-    binding.cells = mapping == Mapping::trilinear ? bindToCells(lattice, positions) : CellBinding();
-    binding.frames = mapping == Mapping::nodeFrames ? frameStencil(lattice, connections) : FrameStencil();
+    binding.cells = {};
+    binding.frames = {};
     binding.bytesPerVertex = double(bytesOf(mapping));
 }
 
-std::vector<glm::dvec3> inLattice(const sim::Lattice& lattice, const sim::TriangleMesh& metres) {
+std::vector<glm::dvec3> inNodes(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
     std::vector<glm::dvec3> positions;
     positions.reserve(metres.positions.size());
     for (const glm::dvec3& p : metres.positions)
-        positions.push_back(lattice.toLattice(p));
+        positions.push_back(nodes.toNodes(p));
     return positions;
 }
 
-} // namespace
-
-SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres, Mapping mapping) {
-    const std::vector<glm::dvec3> positions = inLattice(lattice, metres), normals = metres.vertexNormals();
-    TriangleChoice choice = chooseTriangles(lattice, metres.faces, positions, normals);
+/// Triangles and weights.
+SurfaceBinding choose(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
+    TriangleChoice choice =
+        chooseTriangles(nodes, metres.faces, inNodes(nodes, metres), metres.vertexNormals());
     SurfaceBinding binding;
     binding.tornEdgesFound = choice.tornEdgesFound;
     binding.tornEdgesLeft = choice.tornEdgesLeft;
-    binding.vertices.resize(positions.size());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
+    binding.vertices.resize(metres.positions.size());
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
         VertexBinding& bound = binding.vertices[v];
-        const glm::uvec3& nodes = lattice.boundary[choice.triangles[v]];
-        const int first = diagonalStart(lattice, nodes);
+        const glm::uvec3& corners = nodes.triangles[choice.triangles[v]];
+        const int first = diagonalStart(nodes, corners);
         for (int i = 0; i < 3; ++i) {
-            bound.nodes[i] = nodes[(first + i) % 3];
+            bound.nodes[i] = corners[(first + i) % 3];
             const double weight = choice.weights[v][(first + i) % 3];
             bound.weights[i] = float(std::round(weight * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
         }
         bound.weights.z = float(exactWeights(bound.weights).z);
     }
     binding.triangles = std::move(choice.triangles);
-    expressAll(binding, lattice, positions, normals, mapping);
     return binding;
+}
+
+} // namespace
+
+SurfaceBinding bindSurface(const ControlNodes& nodes, const sim::TriangleMesh& metres, Mapping mapping) {
+    SEROSA_CHECK(mapping != Mapping::trilinear, "nodes without a lattice have no cells");
+    SurfaceBinding binding = choose(nodes, metres);
+    expressVertices(binding, nodes, RestNormals(nodes), metres, mapping);
+    if (mapping == Mapping::nodeFrames)
+        binding.frames = frameStencil(nodes);
+    return binding;
+}
+
+SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres, Mapping mapping) {
+    return expressBinding(choose(controlNodes(lattice), metres), lattice, metres, mapping);
 }
 
 SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice& lattice,
@@ -161,8 +175,38 @@ SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice&
                               const std::vector<std::uint32_t>& connections) {
     SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
     SurfaceBinding other = binding;
-    expressAll(other, lattice, inLattice(lattice, metres), metres.vertexNormals(), mapping, connections);
+    const ControlNodes nodes = controlNodes(lattice);
+    expressVertices(other, nodes, RestNormals(lattice, connections), metres, mapping);
+    if (mapping == Mapping::trilinear)
+        other.cells = bindToCells(lattice, inNodes(nodes, metres));
+    if (mapping == Mapping::nodeFrames)
+        other.frames = frameStencil(lattice, connections);
     return other;
+}
+
+Status checkBinding(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
+    if (nodes.triangles.empty())
+        return Error{"the nodes have no triangles that a surface could follow: give a mesh with faces"};
+    if (metres.faces.empty())
+        return Error{"the surface has no faces: give a mesh with faces"};
+    const sim::TriangleTree tree(nodes.rest, nodes.triangles);
+    double farthest = 0;
+    std::size_t vertex = 0;
+    for (std::size_t v = 0; v < metres.positions.size(); ++v)
+        if (const double distance = std::sqrt(tree.closest(nodes.toNodes(metres.positions[v])).distance2);
+            !(distance <= farthest)) {
+            farthest = distance;
+            vertex = v;
+        }
+    if (farthest <= kFarthestSpacings)
+        return {};
+    std::ostringstream text;
+    text.precision(4);
+    text << "vertex " << vertex << " of the surface (the first is 0) lies " << 1e3 * farthest * nodes.spacing
+         << " mm from the nearest triangle of nodes, " << farthest << " times their spacing of "
+         << 1e3 * nodes.spacing << " mm, and at most " << kFarthestSpacings
+         << " can be followed: do the two belong together, in one unit and one place?";
+    return Error{text.str()};
 }
 
 } // namespace serosa::render

@@ -4,7 +4,9 @@
 // triangle basis, the curvature-corrected one, a share of both, or the nodes' frames. Made once on the CPU,
 // with the packed rest normals as the GPU has them; drawn by shaders/surface.vert (eq. 9).
 
+#include "base/result.h"
 #include "render/cell_binding.h"
+#include "render/control_nodes.h"
 #include "render/node_frames.h"
 #include "render/normal_offset.h"
 #include "sim/lattice.h"
@@ -45,6 +47,15 @@ struct SurfaceBinding {
 /// Binds every vertex. `metres` is the rest surface in world metres. mapping: any but one-to-one.
 SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                            sim::Mapping mapping);
+
+/// The same to any nodes: a surface that another solver or an animation moves. mapping: neither one-to-one
+/// nor trilinear, which needs cells. What it follows passes checkBinding.
+SurfaceBinding bindSurface(const ControlNodes& nodes, const sim::TriangleMesh& metres, sim::Mapping mapping);
+
+/// Errors: nodes without triangles; a surface without faces, or with a vertex farther than kFarthestSpacings
+/// from every triangle (names the vertex and the distance).
+Status checkBinding(const ControlNodes& nodes, const sim::TriangleMesh& metres);
+inline constexpr double kFarthestSpacings = 4;
 
 /// The same triangles and weights, offsets and normals for another mapping (any but one-to-one), or for what
 /// connections a cut left (18 bits a node; empty: those of the lattice).

@@ -42,7 +42,7 @@ Status measureBall(CheckList& checks) {
         }
     }
     const AngleSpread angles = render::anglesBetween(eq3, radial);
-    checks.atMost("eq. 3 on a ball's steps against the radius, median", angles.median, 15, "deg");
+    checks.atMost("eq. 3 on a ball's steps against the radius, median", angles.median, 20, "deg");
     checks.atMost("eq. 3 on a ball's steps against the radius, largest", angles.largest, 50, "deg");
     checks.atMost("eq. 3 on a ball: nodes at inner corners, where it is not defined",
                   double(undefined) / double(all), 0.25, "of all");

@@ -57,7 +57,7 @@ TEST(SurfaceBinding, WeightsAreOfTheClosestKindAndSumToOne) {
     for (std::size_t v = 0; v < bound.binding.vertices.size(); ++v) {
         const VertexBinding& vertex = bound.binding.vertices[v];
         const glm::uvec3& triangle = bound.lattice.boundary[bound.binding.triangles[v]];
-        const int first = diagonalStart(bound.lattice, triangle);
+        const int first = diagonalStart(controlNodes(bound.lattice), triangle);
         EXPECT_EQ(vertex.nodes,
                   glm::uvec3(triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]));
         EXPECT_NEAR(glm::distance(bound.lattice.restPosition(vertex.nodes.x),
@@ -158,11 +158,11 @@ TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
             faces.emplace_back(a, a + 1, b);
             faces.emplace_back(a + 1, b + 1, b);
         }
-    TriangleChoice good =
-        chooseTriangles(lattice, faces, positions, std::vector<glm::dvec3>(positions.size(), {0, 1, 0}));
+    TriangleChoice good = chooseTriangles(controlNodes(lattice), faces, positions,
+                                          std::vector<glm::dvec3>(positions.size(), {0, 1, 0}));
     ASSERT_EQ(good.tornEdgesLeft, 0U);
-    TriangleChoice below =
-        chooseTriangles(lattice, faces, positions, std::vector<glm::dvec3>(positions.size(), {0, -1, 0}));
+    TriangleChoice below = chooseTriangles(controlNodes(lattice), faces, positions,
+                                           std::vector<glm::dvec3>(positions.size(), {0, -1, 0}));
 
     TriangleChoice choice = good;
     std::size_t wrong = 0;
@@ -173,7 +173,7 @@ TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
             ++wrong;
         }
     ASSERT_GT(wrong, 50U);
-    repairTornEdges(lattice, faces, positions, choice);
+    repairTornEdges(controlNodes(lattice), faces, positions, choice);
     EXPECT_GT(choice.tornEdgesFound, 30U); // the patch's rim
     EXPECT_EQ(choice.tornEdgesLeft, 0U);
     const double top = 1 - lattice.centre.y;
