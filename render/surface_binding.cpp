@@ -134,6 +134,7 @@ std::vector<glm::dvec3> inNodes(const ControlNodes& nodes, const sim::TriangleMe
 
 /// Triangles and weights.
 SurfaceBinding choose(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
+    SEROSA_CHECK(!nodes.triangles.empty(), "triangles to follow (checkBinding)");
     TriangleChoice choice =
         chooseTriangles(nodes, metres.faces, inNodes(nodes, metres), metres.vertexNormals());
     SurfaceBinding binding;

@@ -143,6 +143,37 @@ TEST(NodeFrames, ASheetOfOneNodeHasThemAndLooseNodesTakeTheNearest) {
     EXPECT_LE(angleBetween(unpackFrame(frames[free]), above), 5e-6);
 }
 
+TEST(NodeFrames, AreExactInEvenStretchWhateverConnectionsACutLeft) {
+    // Neighbours that span space must count in all directions: none is taken for flat.
+    const sim::Lattice lattice = test::boxLattice(2, 2, 2, 1.0, glm::dvec3(0));
+    std::mt19937 random(3);
+    const glm::dvec3 stretch(1.25, 0.875, 1.125);
+    std::vector<glm::dvec3> positions;
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        positions.push_back(stretch * lattice.restPosition(node));
+    std::size_t spanning = 0;
+    for (int round = 0; round < 400; ++round) {
+        std::vector<std::uint32_t> left = lattice.connections;
+        for (std::uint32_t& bits : left)
+            bits &= std::uint32_t(random()) | (round % 2 ? std::uint32_t(random()) : 0U);
+        const FrameStencil stencil = frameStencil(lattice, left);
+        const auto frames = nodeFrames(stencil, positions);
+        for (const FrameStencil::Row& row : stencil.rows) {
+            glm::dmat3 spread(0);
+            for (std::size_t d = 0; d < 18; ++d)
+                if ((left[row.node] >> d) & 1U) {
+                    const glm::dvec3 offset(sim::kNeighbourOffsets[d]);
+                    spread += glm::outerProduct(offset, offset);
+                }
+            if (glm::determinant(spread) < 0.5) // of whole numbers
+                continue;
+            ++spanning;
+            ASSERT_EQ(unpackFrame(frames[row.node]), glm::dquat(1, 0, 0, 0));
+        }
+    }
+    EXPECT_GT(spanning, 1000U);
+}
+
 TEST(BlendFrames, IsTheSameFromEitherTriangleOfAnEdge) {
     const auto q = randomRotations(60);
     for (std::size_t i = 0; i + 3 < q.size(); i += 4) {

@@ -144,6 +144,39 @@ TEST(SurfaceBinding, ThinWallBindsToItsOwnSide) {
             ASSERT_EQ(lattice.restPosition(vertex.nodes[k]).y, topSide);
 }
 
+TEST(CheckBinding, SaysWhatCannotBeFollowed) {
+    const sim::Lattice lattice = test::boxLattice(3, 3, 3, kSpacing, kOrigin);
+    sim::TriangleMesh mesh = test::ballMesh(6, kSpacing, lattice.toWorld(glm::dvec3(0.1)));
+    const ControlNodes nodes = controlNodes(lattice);
+    EXPECT_TRUE(checkBinding(nodes, mesh).ok());
+    ControlNodes bare = nodes;
+    bare.triangles.clear();
+    EXPECT_NE(checkBinding(bare, mesh).error().message.find("no triangles"), std::string::npos);
+    mesh.positions[17] += glm::dvec3(10 * kSpacing, 0, 0);
+    const Status far = checkBinding(nodes, mesh);
+    ASSERT_FALSE(far.ok());
+    EXPECT_NE(far.error().message.find("vertex 17 "), std::string::npos) << far.error().message;
+    EXPECT_NE(far.error().message.find(" mm from the nearest triangle"), std::string::npos);
+    mesh.positions[17].x = std::nan("");
+    EXPECT_FALSE(checkBinding(nodes, mesh).ok());
+    mesh.faces.clear();
+    EXPECT_NE(checkBinding(nodes, mesh).error().message.find("no faces"), std::string::npos);
+}
+
+TEST(ControlNodes, OfALatticeBindAsTheLatticeDoes) {
+    const Bound bound = ball(sim::Mapping::curvature);
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature, sim::Mapping::chosen,
+                               sim::Mapping::normalOffset, sim::Mapping::nodeFrames}) {
+        const SurfaceBinding one = bindSurface(bound.lattice, bound.mesh, mapping),
+                             other = bindSurface(controlNodes(bound.lattice), bound.mesh, mapping);
+        const sim::LatticeState bent =
+            deformedState(bound.lattice, [](const glm::dvec3& q) { return bend(q, {}, 20); });
+        EXPECT_LE(largestDistance(mapSurface(one, bent.positions, bent.normals),
+                                  mapSurface(other, bent.positions, bent.normals)),
+                  1e-6);
+    }
+}
+
 TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
     const sim::Lattice lattice = test::boxLattice(8, 1, 8, 1.0, glm::dvec3(0));
     std::vector<glm::dvec3> positions;
