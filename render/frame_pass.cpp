@@ -2,7 +2,9 @@
 #include "render/frame_pass.h"
 
 #include "gpu/gl.h"
+#include "shaders/mapping_constants.h"
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 
@@ -29,9 +31,13 @@ void FramePass::update(const FrameStencil& stencil, const sim::TextureLayout& la
                            std::bit_cast<std::uint32_t>(term.gradient.y),
                            std::bit_cast<std::uint32_t>(term.gradient.z), texel(term.node));
     rows_ = gpu::Buffer("node frame rows", std::span<const glm::uvec4>(rows));
-    terms_ = gpu::Buffer("node frame terms", std::span<const glm::uvec4>(terms));
+    const std::size_t height =
+        std::max<std::size_t>(1, (terms.size() + SRS_TABLE_WIDTH - 1) / SRS_TABLE_WIDTH);
+    terms.resize(height * SRS_TABLE_WIDTH);
+    terms_ = gpu::Texture2D("node frame terms", GL_RGBA32UI, SRS_TABLE_WIDTH, int(height));
+    terms_.upload(terms.data());
     count_ = int(rows.size());
-    program_.buffer("b_rows", rows_).buffer("b_terms", terms_);
+    program_.buffer("b_rows", rows_).texture("t_terms", terms_);
     program_.image("i_frames", frames_, GL_WRITE_ONLY);
     program_.set("u_rows", count_);
 }

@@ -23,8 +23,8 @@ public:
 private:
     FramePass() = default;
     gpu::Program program_;
-    gpu::Buffer rows_, terms_;
-    gpu::Texture2D frames_;
+    gpu::Buffer rows_;
+    gpu::Texture2D terms_, frames_;
     int count_ = 0;
 };
 

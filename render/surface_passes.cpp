@@ -184,7 +184,7 @@ Status SurfacePasses::createMapped(const SurfaceBinding& binding, const sim::Tex
                                         offsetof(CellVertex, cell));
         geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, kStride, offsetof(CellVertex, at));
         const std::vector<glm::uvec4> texels = cellTexels(binding.cells, layout);
-        cells_ = gpu::Texture2D("cells", GL_RGBA32UI, SRS_CELLS_WIDTH, int(texels.size() / SRS_CELLS_WIDTH));
+        cells_ = gpu::Texture2D("cells", GL_RGBA32UI, SRS_TABLE_WIDTH, int(texels.size() / SRS_TABLE_WIDTH));
         cells_.upload(texels.data());
     } else if (stage == SurfaceStage::alongNormal) {
         upload(normalVertices(binding, layout, colours_));

@@ -77,8 +77,8 @@ std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureL
         for (std::size_t half = 0; half < 8; half += 4)
             texels.emplace_back(texel(layout, corners[half]), texel(layout, corners[half + 1]),
                                 texel(layout, corners[half + 2]), texel(layout, corners[half + 3]));
-    const std::size_t rows = (texels.size() + SRS_CELLS_WIDTH - 1) / SRS_CELLS_WIDTH;
-    texels.resize(std::max<std::size_t>(rows, 1) * SRS_CELLS_WIDTH);
+    const std::size_t rows = (texels.size() + SRS_TABLE_WIDTH - 1) / SRS_TABLE_WIDTH;
+    texels.resize(std::max<std::size_t>(rows, 1) * SRS_TABLE_WIDTH);
     return texels;
 }
 

@@ -62,7 +62,7 @@ std::vector<NormalVertex> normalVertices(const SurfaceBinding& binding, const si
                                          const std::vector<glm::u8vec4>& colours);
 std::vector<CellVertex> cellVertices(const SurfaceBinding& binding, const std::vector<glm::u8vec4>& colours);
 
-/// Node texels of the cells' corners, two RGBA32UI texels a cell, in rows of SRS_CELLS_WIDTH that are whole.
+/// Node texels of the cells' corners, two RGBA32UI texels a cell, in rows of SRS_TABLE_WIDTH that are whole.
 std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureLayout& layout);
 
 std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,

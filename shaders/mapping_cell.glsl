@@ -7,7 +7,7 @@ layout(location = 2) in vec3 a_offset; // from the cell's lowest corner, 0 .. 1
 uniform usampler2D t_cells; // two texels a cell: texels y << 16 | x of its corners (at +x if c & 1, +y if c & 2, +z if c & 4)
 
 Mapped mapVertex() {
-    ivec2 at = ivec2(2u * a_cell & (SRS_CELLS_WIDTH - 1u), 2u * a_cell / SRS_CELLS_WIDTH);
+    ivec2 at = ivec2(2u * a_cell & (SRS_TABLE_WIDTH - 1u), 2u * a_cell / SRS_TABLE_WIDTH);
     uvec4 low = texelFetch(t_cells, at, 0), high = texelFetch(t_cells, at + ivec2(1, 0), 0);
     vec3 p0 = fetchNode(low.x).xyz;
     // Relative to one corner: smaller numbers, so less is rounded off

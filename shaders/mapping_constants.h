@@ -12,7 +12,7 @@
 #define SRS_WEIGHT_STEPS 65535.0 // of a vertex' weights w1, w2
 #define SRS_SHARE_STEPS 255.0    // of its shares (MAPPING == SRS_MAP_BLENDED)
 
-#define SRS_CELLS_WIDTH 4096 // texels: of the table of cells, two a cell
+#define SRS_TABLE_WIDTH 4096 // texels: of tables in textures (cells, two texels each; terms of node frames)
 
 // Node frames (shaders/packed_frame.glsl)
 #define SRS_FRAME_HALF_STEPS 1048575.0 // 2^20 - 1, of a coordinate -1..1
