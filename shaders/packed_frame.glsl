@@ -35,11 +35,11 @@ vec4 rotationOf(mat3 f) {
     for (int i = 0; i < SRS_FRAME_SQUARINGS; ++i) {
         m = m * m;
         m *= 1.0 / (m[0][0] + m[1][1] + m[2][2] + m[3][3]);
+        // Trace 1: the sum of squares is 1 where the other eigenvalues are gone (1e-6 rad), mostly after three rounds.
+        if (dot(m[0], m[0]) + dot(m[1], m[1]) + dot(m[2], m[2]) + dot(m[3], m[3]) > 0.999999)
+            break;
     }
     // All columns are along the eigenvector by now: the longest is the most exact.
-    int best = 0;
-    for (int i = 1; i < 4; ++i)
-        if (m[i][i] > m[best][best])
-            best = i;
-    return normalize(m[best]);
+    vec4 first = m[0][0] > m[1][1] ? m[0] : m[1], second = m[2][2] > m[3][3] ? m[2] : m[3];
+    return normalize(max(m[0][0], m[1][1]) > max(m[2][2], m[3][3]) ? first : second);
 }
