@@ -6,11 +6,13 @@
 #include "app/cli_run.h"
 #include "app/commands.h"
 #include "app/doctor.h"
+#include "app/map_nodes.h"
 #include "app/scene_snapshot.h"
 #include "app/verify/verify.h"
 #include "app/version.h"
 #include "models/phantom.h"
 #include "sim/quantity.h"
+#include "sim/scene_keys.h"
 #include "sim/suggest.h"
 
 #include <CLI/CLI.hpp>
@@ -181,6 +183,52 @@ void addPhantom(CLI::App& app, Choice& choice) {
     });
 }
 
+void addMap(CLI::App& app, Choice& choice) {
+    CLI::App* command =
+        app.add_subcommand("map", "Let a detailed surface follow a coarse mesh that something else moves");
+    struct Arguments {
+        MapOptions options;
+        std::string mapping;
+    };
+    auto given = std::make_shared<Arguments>();
+    command->add_option("surface", given->options.surface, "detailed surface at rest; need not be closed")
+        ->required()
+        ->type_name("SURFACE");
+    command->add_option("--nodes", given->options.nodes, "coarse mesh at rest, in the same unit and place")
+        ->required()
+        ->type_name("FILE");
+    command
+        ->add_option("--frames", given->options.frames,
+                     "folder with that mesh in each frame, in the order of the file names")
+        ->required()
+        ->type_name("DIR");
+    command->add_option("--length-unit", given->options.lengthUnit, "unit of all files: mm, cm, m, um, in")
+        ->required()
+        ->type_name("U");
+    command
+        ->add_option("--mapping", given->mapping,
+                     "triangle, curvature, chosen, normal-offset or node-frames (default)")
+        ->type_name("M");
+    command->add_option("--out", given->options.out, "folder for surface_000001.ply and on")
+        ->required()
+        ->type_name("DIR");
+    command->add_flag("--force", given->options.force, "replace surfaces of an earlier run");
+    command->footer(
+        "Example:\n  serosa map fine.ply --nodes coarse.ply --frames moving --length-unit mm --out "
+        "moved\n"
+        "Exit codes: 0 written, 2 bad input.");
+    command->callback([given, &choice] {
+        choice.action = [given]() -> Result<int> {
+            if (!given->mapping.empty()) {
+                SEROSA_ASSIGN(const int mapping, wordIndex("--mapping", given->mapping,
+                                                           sim::findSceneKey("look", "mapping")->words));
+                given->options.mapping = sim::Mapping(mapping);
+            }
+            return mapNodes(given->options, std::cout);
+        };
+    });
+}
+
 void addVerify(CLI::App& app, Choice& choice) {
     CLI::App* command =
         app.add_subcommand("verify", "Verify this program on this machine against known results");
@@ -284,6 +332,7 @@ std::unique_ptr<CLI::App> makeCommandTree(Choice& choice) {
     addRepair(app, choice);
     addScene(app, choice);
     addPhantom(app, choice);
+    addMap(app, choice);
     addVerify(app, choice);
     addBench(app, choice.action);
     addDoctor(app, choice);

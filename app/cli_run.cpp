@@ -122,7 +122,8 @@ void addSceneOptions(CLI::App& command, RunArguments& given) {
         ->type_name("WxH");
     command
         .add_option("--mapping", given.mapping,
-                    "how the surface follows the lattice: one-to-one, triangle, curvature")
+                    "how the surface follows the lattice: one-to-one, triangle, curvature, chosen, "
+                    "normal-offset, trilinear, node-frames")
         ->type_name("M");
     command.add_option("--nodes", given.nodes, "lattice nodes aimed at (default: 20000)")
         ->type_name("N")
@@ -293,7 +294,7 @@ void addView(CLI::App& app, std::function<Result<int>()>& action) {
     command->add_flag("--fast", given->fast, "as fast as it goes, not in real time");
     command->add_flag("--no-panel", given->noPanel, "start without the panel (p shows it)");
     command->footer(
-        "Keys: space pause, . step, r restart, 1 2 3 mapping, l lattice, w wires, n normals, s F12 "
+        "Keys: space pause, . step, r restart, 1 2 3 4 mapping, l lattice, w wires, n normals, s F12 "
         "screenshots,\n"
         "F5 shaders, c camera, p panel, q quit. Mouse: drag turns, right drag moves, wheel zooms.\n"
         "Examples:\n"

@@ -13,7 +13,7 @@ namespace serosa::app {
 
 std::string LevelState::bytes() const {
     sim::ByteWriter out;
-    if (details.empty())
+    if (details.empty() && blend.empty())
         return out.take();
     out.u32(std::uint32_t(choice.wanted));
     out.u32(std::uint32_t(choice.calmer));
@@ -37,8 +37,8 @@ std::optional<LevelState> LevelState::parse(std::string_view bytes, const RunPar
                                             int frame) {
     const OrganLevels& levels = parts.levels[organ];
     LevelState state;
-    if (levels.count() == 1)
-        return bytes.empty() ? std::optional(state) : std::nullopt;
+    if (levels.count() == 1 && bytes.empty())
+        return state;
     sim::ByteReader in(bytes, 0);
     const std::uint32_t wanted = in.u32(), calmer = in.u32();
     const std::int64_t changedAt = in.i64();

@@ -16,7 +16,7 @@ struct RunParts;
 struct LevelChoice {
     int wanted = 1;     // by the rule (app/level_rule.h), at the last look
     int calmer = 1;     // by the last look, whatever was made of it
-    int changedAt = 0;  // frame of the last change
+    int changedAt = 0;  // frame of the last change of level, or of a cut that the drawing lets fade
     int looks = 0;      // in a row that asked for a coarser level than the active one
     int patience = 2;   // so many must
     int coarserAt = -1; // frame of the last change to a coarser one by the rule; -1: none
@@ -27,7 +27,7 @@ struct LevelState {
     std::vector<sim::LodDetail> details; // OrganLevels::details
     std::vector<float> blend;            // SurfaceRenderer::blend
 
-    /// Empty for an organ of one level.
+    /// Empty for an organ of one level whose drawing lets nothing fade.
     std::string bytes() const;
     /// Nothing where the bytes do not belong to the organ. \param frame of the snapshot
     static std::optional<LevelState> parse(std::string_view bytes, const RunParts& parts, std::size_t organ,

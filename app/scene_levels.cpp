@@ -112,9 +112,12 @@ void ScenePlayer::restoreLevel(std::size_t i, int level, const LevelState& state
     levels.select(parts_, i, level);
     levels.setDetails(state.details);
     newGuard(i);
-    levelChoices_[i] = state.choice;
     changes_[i] = {{frame_, level}};
-    parts_.renderer->setBlend(i, parts_.surfaceMapping(), state.blend, levels.finest(parts_, i));
+}
+
+void ScenePlayer::restoreBlend(std::size_t i, const LevelState& state) {
+    levelChoices_[i] = state.choice;
+    parts_.renderer->setBlend(i, parts_.surfaceMapping(), state.blend, parts_.levels[i].finest(parts_, i));
     parts_.renderer->setBlendFrame(i, frame_ - state.choice.changedAt);
 }
 

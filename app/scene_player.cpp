@@ -59,8 +59,9 @@ void ScenePlayer::cut(std::size_t i) {
         const Status done = cuts_[i].cut(*organ.solver, step, stroke);
         SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
     }
+    parts_.renderer->setBlendFrame(i, frame_ - levelChoices_[i].changedAt);
     if (!strokes.empty())
-        showCuts(i);
+        showCuts(i, true);
 }
 
 void ScenePlayer::setCutMask(std::size_t i, std::string_view bytes) {
@@ -69,15 +70,19 @@ void ScenePlayer::setCutMask(std::size_t i, std::string_view bytes) {
     SEROSA_CHECK(done.ok(), "a snapshot of this scene");
 }
 
-void ScenePlayer::showCuts(std::size_t i) {
+void ScenePlayer::showCuts(std::size_t i, bool inMotion) {
     const OrganParts& organ = *parts_.organs[i];
     const std::vector<std::uint32_t> connections = organ.solver->state().connections;
     if (connections != shownConnections_[i] && parts_.coupled.placeOf(i) >= 0)
         parts_.coupled.group->reconnect(std::size_t(parts_.coupled.placeOf(i)));
-    if (connections != shownConnections_[i])
-        parts_.renderer->showCuts(i, organ.lattice, organ.surface.metres, organ.binding,
-                                  organ.textures().layout(),
-                                  connections.empty() ? organ.lattice.connections : connections);
+    if (connections != shownConnections_[i]) {
+        const Status shown = parts_.renderer->showCuts(
+            i, organ.lattice, organ.surface.metres, organ.binding, organ.textures(),
+            connections.empty() ? organ.lattice.connections : connections, parts_.surfaceMapping(), inMotion);
+        SEROSA_CHECK(shown.ok(), "shaders that compiled before");
+        if (inMotion)
+            levelChoices_[i].changedAt = frame_;
+    }
     shownConnections_[i] = connections;
 }
 

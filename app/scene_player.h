@@ -90,7 +90,10 @@ private:
     /// What the renderer's mask holds (SurfaceRenderer::saveCuts); empty: nothing is cut.
     void setCutMask(std::size_t organ, std::string_view bytes);
     /// Lets the renderer draw what cuts left, if they changed anything. Reads the bits back (stalls).
-    void showCuts(std::size_t organ);
+    /// \param inMotion the surface goes over to what is left; else it is drawn so at once
+    void showCuts(std::size_t organ, bool inMotion = false);
+    /// What a snapshot says of what still fades.
+    void restoreBlend(std::size_t organ, const LevelState& state);
 
     RunParts& parts_;
     int frame_ = 0;

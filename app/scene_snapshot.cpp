@@ -220,6 +220,7 @@ void ScenePlayer::restore(const sim::Snapshot& snapshot) {
             SEROSA_CHECK(done.ok(), "a context of GL 4.5 has double precision in shaders");
             setCutMask(i, organ.cutMask);
             showCuts(i);
+            restoreBlend(i, *levels);
             if (guards_[i])
                 guards_[i]->restart(frame_);
         } else {

@@ -48,6 +48,7 @@ public:
           clock_(1 / parts.scene.frameRate, kMostFramesOwed), size_(window.framebufferSize()),
           camera_(parts.scene.camera, parts.lowest(), parts.highest(), aspect()) {
         controls_.look = parts.scene.look;
+        controls_.sceneMapping = parts.scene.look.mapping;
         controls_.panel = options.panel;
         readings_.scene = parts.scene.organs.front().name;
         for (const auto& organ : parts.organs) {

@@ -95,6 +95,9 @@ void ViewInput::press(int key) {
     case '3':
         controls_.look.mapping = sim::Mapping(key - '1');
         break;
+    case '4':
+        controls_.look.mapping = controls_.sceneMapping;
+        break;
     case 'l':
         controls_.look.lattice = !controls_.look.lattice;
         break;

@@ -17,6 +17,7 @@ namespace serosa::app {
 struct ViewControls {
     bool paused = false, wireframe = false, panel = true;
     sim::Look look;
+    sim::Mapping sceneMapping = sim::Mapping::curvature; // what the scene asks for
     // Asked for once; the loop clears them.
     // A hand that follows the pointer, as long as a button is held.
     std::optional<HandKind> hand;

@@ -3,6 +3,7 @@
 #include "app/view_panel.h"
 
 #include "gpu/gl.h"
+#include "sim/scene_keys.h"
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -26,7 +27,7 @@ constexpr const char* kHelp = "drag         turn\n"
                               "arrows       turn; shift: move\n"
                               "c            camera of the scene\n"
                               "space . r    pause, step, restart\n"
-                              "1 2 3        mapping\n"
+                              "1 2 3 4      mapping; 4: scene's\n"
                               "l w n        lattice, wires, normals\n"
                               "s F12        picture, window\n"
                               "F5           shaders again\n"
@@ -80,6 +81,11 @@ void drawSwitches(ViewControls& controls) {
     ImGui::RadioButton("one-to-one", &mapping, 0);
     ImGui::RadioButton("triangle basis", &mapping, 1);
     ImGui::RadioButton("curvature-corrected", &mapping, 2);
+    if (controls.sceneMapping > sim::Mapping::curvature) {
+        const auto& words = sim::findSceneKey("look", "mapping")->words;
+        ImGui::RadioButton(words[std::size_t(controls.sceneMapping)].c_str(), &mapping,
+                           int(controls.sceneMapping));
+    }
     controls.look.mapping = sim::Mapping(mapping);
     ImGui::Checkbox("surface", &controls.look.surface);
     ImGui::SameLine();

@@ -1,5 +1,5 @@
-// Drawing: what the two mappings of MS05 3.3 cost beside the undeformed surface, whole frames, and vertex
-// fetch against reading back and uploading; and the figures that MS05 3.4 gives.
+// Drawing: what the mappings (those of MS05 3.3 and those beside them) cost against the undeformed surface,
+// whole frames, and vertex fetch against reading back and uploading; and the figures that MS05 3.4 gives.
 
 #include "bench/cases.h"
 #include "gpu/gl.h"
@@ -7,6 +7,7 @@
 #include "render/camera.h"
 #include "render/surface_binding.h"
 #include "render/surface_renderer.h"
+#include "render/surface_vertices.h"
 #include "sim/state_textures.h"
 
 #include <optional>
@@ -17,6 +18,17 @@ namespace {
 
 constexpr int kPictureSize = 1024; // pixels
 constexpr double kYoung = 3000;    // Pa
+
+struct OtherMapping {
+    sim::Mapping mapping;
+    const char* name;
+    const char* ratio;
+};
+constexpr OtherMapping kOthers[] = {
+    {sim::Mapping::chosen, "chosen per vertex", "chosen_over_static"},
+    {sim::Mapping::normalOffset, "along the normal", "normal_offset_over_static"},
+    {sim::Mapping::trilinear, "trilinear in cells", "trilinear_over_static"},
+    {sim::Mapping::nodeFrames, "node frames, their pass included", "node_frames_over_static"}};
 
 /// What a program without vertex texture fetch does every frame: node positions to the CPU, eq. 9 there (one
 /// thread), positions and normals back into a vertex buffer.
@@ -101,12 +113,22 @@ Status benchMapping(const Options& options, Report& report) {
         render::SurfaceRenderer renderer,
         render::SurfaceRenderer::create(block.lattice, *heart, corrected, state, kPictureSize, kPictureSize));
     ReadbackPath readback(*solver, constant);
+    // A renderer each: it draws the mapping that its binding is of.
+    std::vector<std::pair<render::SurfaceBinding, render::SurfaceRenderer>> others;
+    for (const OtherMapping& of : kOthers) {
+        render::SurfaceBinding binding = render::expressBinding(corrected, block.lattice, *heart, of.mapping);
+        SEROSA_ASSIGN(render::SurfaceRenderer other,
+                      render::SurfaceRenderer::create(block.lattice, *heart, binding, state, kPictureSize,
+                                                      kPictureSize));
+        others.emplace_back(std::move(binding), std::move(other));
+    }
 
     Rounds rounds;
-    const auto stage = [&](const char* name, render::VertexStage vertexStage) {
-        rounds.add(name, [&renderer, &state, vertexStage](int repeats) {
+    const auto stageOf = [&](render::SurfaceRenderer& of, const char* name,
+                             std::optional<sim::Mapping> mapping) {
+        rounds.add(name, [&of, &state, mapping](int repeats) {
             for (int i = 0; i < repeats; ++i)
-                renderer.drawVertexStageOnly(state, vertexStage);
+                of.drawVertexStageOnly(state, mapping);
             glFinish();
         });
     };
@@ -117,13 +139,15 @@ Status benchMapping(const Options& options, Report& report) {
             glFinish();
         });
     };
-    stage("undeformed", render::VertexStage::undeformed);
-    stage("constant", render::VertexStage::constant);
-    stage("corrected", render::VertexStage::corrected);
+    stageOf(renderer, "undeformed", std::nullopt);
+    stageOf(renderer, "constant", sim::Mapping::triangle);
+    stageOf(renderer, "corrected", sim::Mapping::curvature);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        stageOf(others[i].second, kOthers[i].name, kOthers[i].mapping);
     rounds.add("readback", [&](int repeats) {
         for (int i = 0; i < repeats; ++i) {
             readback.run();
-            renderer.drawVertexStageOnly(state, render::VertexStage::undeformed);
+            renderer.drawVertexStageOnly(state, std::nullopt);
         }
         glFinish();
     });
@@ -138,14 +162,18 @@ Status benchMapping(const Options& options, Report& report) {
     report.heading("Vertex stage, heart of " + std::to_string(heart->faces.size()) + " faces (" +
                    std::to_string(heart->positions.size()) + " vertices) on " +
                    std::to_string(block.lattice.nodeCount()) + " nodes, nothing rasterized");
-    report.table({"", "ms", "over undeformed"},
-                 {{"undeformed", figure(rounds.milliseconds("undeformed")), "1"},
-                  {"constant basis (vertex fetch)", figure(rounds.milliseconds("constant")),
-                   figure(rounds.ratio("constant", "undeformed"))},
-                  {"corrected basis (vertex fetch)", figure(rounds.milliseconds("corrected")),
-                   figure(rounds.ratio("corrected", "undeformed"))},
-                  {"nodes read back, mapped on one CPU thread (constant basis), uploaded, drawn",
-                   figure(rounds.milliseconds("readback")), figure(rounds.ratio("readback", "undeformed"))}});
+    std::vector<std::vector<std::string>> rows;
+    const auto row = [&](std::string what, const char* name, double bytes) {
+        rows.push_back({std::move(what), bytes > 0 ? figure(bytes) : "", figure(rounds.milliseconds(name)),
+                        figure(rounds.ratio(name, "undeformed"))});
+    };
+    row("undeformed", "undeformed", sizeof(render::StaticVertex));
+    row("constant basis", "constant", constant.bytesPerVertex);
+    row("corrected basis", "corrected", corrected.bytesPerVertex);
+    for (std::size_t i = 0; i < others.size(); ++i)
+        row(kOthers[i].name, kOthers[i].name, others[i].first.bytesPerVertex);
+    row("nodes read back, mapped on one CPU thread (constant basis), uploaded, drawn", "readback", 0);
+    report.table({"", "bytes a vertex", "ms", "over undeformed"}, rows);
     report.line("\nReading back and uploading takes " + figure(rounds.ratio("readback", "constant")) +
                 " times as long as the vertex fetch with the same basis.");
     report.heading("Whole frame, 1024 x 1024");
@@ -155,6 +183,8 @@ Status benchMapping(const Options& options, Report& report) {
                    figure(rounds.ratio("frame, corrected", "frame, constant"))}});
     reportPaperTable(rounds, report);
     report.ratio("mapping_over_static", rounds.ratio("corrected", "undeformed"));
+    for (const OtherMapping& of : kOthers)
+        report.ratio(of.ratio, rounds.ratio(of.name, "undeformed"));
     report.ratio("corrected_over_constant", rounds.ratio("corrected", "constant"));
     report.ratio("corrected_over_constant_frame", rounds.ratio("frame, corrected", "frame, constant"));
     return {};

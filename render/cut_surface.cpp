@@ -2,9 +2,6 @@
 #include "render/cut_surface.h"
 
 #include "render/cut_faces.h"
-#include "render/surface_vertices.h"
-#include "render/triangle_basis.h"
-#include "render/triangle_choice.h"
 #include "shaders/shared_constants.h"
 #include "sim/triangle_tree.h"
 
@@ -81,30 +78,6 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> places_;
 };
 
-/// A place and a normal over a boundary triangle, in its constant basis; weights as 16 bits hold them.
-VertexBinding bindTo(const sim::Lattice& lattice, const glm::uvec3& triangle, const glm::dvec3& weights,
-                     const glm::dvec3& place, const glm::dvec3& normal) {
-    const int first = diagonalStart(lattice, triangle);
-    VertexBinding binding;
-    std::array<glm::dvec3, 3> p;
-    for (int i = 0; i < 3; ++i) {
-        const int corner = (first + i) % 3;
-        binding.nodes[i] = triangle[corner];
-        binding.weights[i] = float(weights[corner]);
-        p[std::size_t(i)] = lattice.restPosition(triangle[corner]);
-    }
-    for (int i = 0; i < 2; ++i)
-        binding.weights[i] = float(std::round(double(binding.weights[i]) * kWeightSteps) / kWeightSteps);
-    binding.weights.z = 1 - binding.weights.x - binding.weights.y;
-    const TriangleBasis basis = basisAlong(triangleNormal(p[0], p[1], p[2]), p[1] - p[0]);
-    const glm::dvec3 reference =
-        p[2] + double(binding.weights.x) * (p[0] - p[2]) + double(binding.weights.y) * (p[1] - p[2]);
-    binding.offset = glm::vec3(inBasis(basis, place - reference));
-    binding.normal = glm::vec3(inBasis(basis, normal));
-    binding.basis = SRS_BASIS_CONSTANT;
-    return binding;
-}
-
 /// Which of a vertex's nodes, and of the corners of its cell, lie on each side of a cut: bit 0 below, bit 1
 /// above. Bit 2: one of them lost a connection.
 int around(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections,
@@ -146,21 +119,13 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
                       const std::vector<float>& sides) {
     CutSurface surface;
     surface.whole = facesLeft(lattice, metres.faces, binding, connections);
-    for (std::uint32_t v = 0; v < binding.vertices.size(); ++v) {
-        bool touched = false;
-        for (int i = 0; i < 3; ++i) {
-            const std::uint32_t node = binding.vertices[v].nodes[i];
-            touched = touched || connections[node] != lattice.connections[node];
-        }
-        if (touched)
-            surface.touched.push_back(v);
-    }
     if (sides.empty())
         return surface;
 
     const std::array<SideTriangles, 2> triangles = {SideTriangles(lattice, connections, sides, -1),
                                                     SideTriangles(lattice, connections, sides, 1)};
     const std::vector<glm::dvec3> normals = metres.vertexNormals();
+    const ControlNodes nodes = controlNodes(lattice);
     std::vector<int> near(binding.vertices.size());
     for (std::size_t v = 0; v < near.size(); ++v)
         near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
@@ -182,7 +147,7 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
         if (t >= 0) {
             found->second = std::int64_t(surface.vertices.size());
             surface.vertices.push_back(
-                {v, side, bindTo(lattice, lattice.boundary[std::size_t(t)], weights, place, normals[v])});
+                {v, side, bindVertex(nodes, lattice.boundary[std::size_t(t)], weights, place, normals[v])});
         }
         return found->second;
     };

@@ -23,11 +23,10 @@ struct CutVertex {
 };
 
 struct CutSurface {
-    std::vector<bool> whole;            // one flag a face of the mesh: drawn as it is
-    std::vector<CutVertex> vertices;    // of the copies
-    std::vector<glm::uvec3> copies;     // faces over `vertices`
-    std::vector<std::uint32_t> copied;  // the mesh face of each
-    std::vector<std::uint32_t> touched; // mesh vertices of which a node lost a connection
+    std::vector<bool> whole;           // one flag a face of the mesh: drawn as it is
+    std::vector<CutVertex> vertices;   // of the copies
+    std::vector<glm::uvec3> copies;    // faces over `vertices`
+    std::vector<std::uint32_t> copied; // the mesh face of each
 };
 
 /// \param connections 18 bits a node. \param sides signed distances of the nodes to the nearest cut, spacings

@@ -1,5 +1,6 @@
 #include "render/mapping_measures.h"
 
+#include "render/mapped_stage.h"
 #include "render/triangle_basis.h"
 #include "render/triangle_choice.h"
 #include "sim/packed_normal.h"
@@ -59,42 +60,49 @@ double largestDistance(const std::vector<glm::dvec3>& a, const std::vector<glm::
     return largest;
 }
 
-/// A surface on the GPU with the state it is drawn from; positions in lattice units.
-class Stage {
-public:
-    static Result<Stage> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                const SurfaceBinding& binding) {
-        SEROSA_ASSIGN(sim::StateTextures state, sim::StateTextures::create(lattice, {}));
-        SEROSA_ASSIGN(SurfaceRenderer renderer,
-                      SurfaceRenderer::create(lattice, metres, binding, state, kPixels, kPixels));
-        return Stage(lattice, binding.mapping, std::move(state), std::move(renderer));
-    }
-    void upload(const sim::LatticeState& state) { state_.upload(state); }
-    std::vector<glm::dvec3> positions() {
-        std::vector<glm::dvec3> q;
-        for (const glm::dvec3& metres : renderer_.readDeformedPositions(state_, mapping_))
-            q.push_back(lattice_->toLattice(metres));
-        return q;
-    }
-    std::vector<glm::dvec3> normals() { return renderer_.readDeformedNormals(state_, mapping_); }
-
-private:
-    static constexpr int kPixels = 8; // nothing is drawn
-    Stage(const sim::Lattice& lattice, sim::Mapping mapping, sim::StateTextures state,
-          SurfaceRenderer renderer)
-        : lattice_(&lattice), mapping_(mapping), state_(std::move(state)), renderer_(std::move(renderer)) {}
-    const sim::Lattice* lattice_;
-    sim::Mapping mapping_;
-    sim::StateTextures state_;
-    SurfaceRenderer renderer_;
-};
-
 /// What the GPU is given: float32 positions.
 std::vector<glm::dvec3> rounded(const sim::LatticeState& state) {
     std::vector<glm::dvec3> positions;
     for (const glm::dvec3& p : state.positions)
         positions.emplace_back(glm::vec3(p));
     return positions;
+}
+
+glm::dvec3 evenStretch(const glm::dvec3& q) {
+    return glm::dvec3(1.25, 0.875, 1.125) * q;
+}
+
+double offsetLength(const SurfaceBinding& binding, std::size_t vertex) {
+    return std::max(double(glm::length(binding.vertices[vertex].offset)), 1e-9);
+}
+
+SurfaceBinding withoutOffsets(SurfaceBinding binding) {
+    for (VertexBinding& vertex : binding.vertices)
+        vertex.offset = glm::vec3(0);
+    for (NormalOffset& along : binding.alongNormal)
+        along.distance = 0;
+    return binding;
+}
+
+/// Does it say what becomes of an offset in an even stretch? (The axes of the others turn with their
+/// triangles.)
+bool keepsOffsets(sim::Mapping mapping) {
+    return mapping == sim::Mapping::nodeFrames || mapping == sim::Mapping::trilinear;
+}
+
+std::vector<glm::dvec3> stretchedReferences(const sim::Lattice& lattice, const SurfaceBinding& binding) {
+    std::vector<glm::dvec3> points = referencePoints(binding, sim::restState(lattice).positions);
+    for (glm::dvec3& point : points)
+        point = evenStretch(point);
+    return points;
+}
+
+/// Of mappings that keep offsets: trilinear stretches all of the surface, node frames leave the offsets.
+std::vector<glm::dvec3> stretchedSurface(const sim::Lattice& lattice, const SurfaceBinding& binding) {
+    std::vector<glm::dvec3> points = stretchedReferences(lattice, binding);
+    for (std::size_t v = 0; v < points.size() && binding.mapping == sim::Mapping::nodeFrames; ++v)
+        points[v] += glm::dvec3(binding.vertices[v].offset);
+    return points;
 }
 
 std::vector<glm::dvec3> inLattice(const sim::Lattice& lattice, const sim::TriangleMesh& metres) {
@@ -132,7 +140,7 @@ glm::dvec3 bend(const glm::dvec3& q, const glm::dvec3& middle, double radius) {
 Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                      sim::Mapping mapping, int motions, NodeNormals normals) {
     const SurfaceBinding binding = bindSurface(lattice, metres, mapping);
-    SEROSA_ASSIGN(Stage stage, Stage::create(lattice, metres, binding));
+    SEROSA_ASSIGN(MappedStage stage, MappedStage::create(lattice, metres, binding));
     const std::vector<glm::dvec3> rest = inLattice(lattice, metres), restNormals = metres.vertexNormals();
     const double size = largestExtent(metres) / lattice.spacing;
     MappingErrors errors;
@@ -144,9 +152,8 @@ Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::Tri
         const std::vector<glm::dvec3> mapped = stage.positions(), turned = stage.normals();
         for (std::size_t v = 0; v < rest.size(); ++v) {
             const double distance = glm::distance(mapped[v], motion(rest[v]));
-            const double offset = std::max(double(glm::length(binding.vertices[v].offset)), 1e-9);
             grow(errors.rigid, distance / size);
-            grow(errors.rigidBeyond, (distance - kFree * size) / offset);
+            grow(errors.rigidBeyond, (distance - kFree * size) / offsetLength(binding, v));
             const double chord = glm::distance(turned[v], motion.turn * restNormals[v]);
             grow(errors.normal, 2 * std::asin(std::min(1.0, 0.5 * chord)));
         }
@@ -159,17 +166,42 @@ Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::Tri
          largestDistance(stage.positions(), mapSurface(binding, rounded(bent), bent.normals)) / size);
 
     // Without offsets the vertex stage gives the reference points.
-    SurfaceBinding bare = binding;
-    for (VertexBinding& vertex : bare.vertices)
-        vertex.offset = glm::vec3(0);
-    SEROSA_ASSIGN(Stage points, Stage::create(lattice, metres, bare));
-    const glm::dvec3 stretch(1.25, 0.875, 1.125);
-    points.upload(deformedState(
-        lattice, [&](const glm::dvec3& q) { return stretch * q; }, normals));
-    std::vector<glm::dvec3> expected = referencePoints(bare, sim::restState(lattice).positions);
-    for (glm::dvec3& point : expected)
-        point *= stretch;
-    errors.stretch = largestDistance(points.positions(), expected) / size;
+    const SurfaceBinding bare = withoutOffsets(binding);
+    SEROSA_ASSIGN(MappedStage points, MappedStage::create(lattice, metres, bare));
+    const sim::LatticeState stretched = deformedState(lattice, evenStretch, normals);
+    points.upload(stretched);
+    errors.stretch = largestDistance(points.positions(), stretchedReferences(lattice, bare)) / size;
+    if (keepsOffsets(mapping)) {
+        stage.upload(stretched);
+        grow(errors.stretch, largestDistance(stage.positions(), stretchedSurface(lattice, binding)) / size);
+    }
+    return errors;
+}
+
+MappingErrors measureMappingTwin(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                 sim::Mapping mapping, int motions) {
+    const SurfaceBinding binding = bindSurface(lattice, metres, mapping);
+    const std::vector<glm::dvec3> rest = inLattice(lattice, metres);
+    const double size = largestExtent(metres) / lattice.spacing;
+    const auto mapped = [&](const sim::LatticeState& state, const SurfaceBinding& of) {
+        return mapSurface(of, rounded(state), state.normals);
+    };
+    MappingErrors errors;
+    errors.rest = largestDistance(mapped(sim::restState(lattice), binding), rest) / size;
+    for (const RigidMotion& motion : randomMotions(motions)) {
+        const std::vector<glm::dvec3> moved = mapped(deformedState(lattice, motion), binding);
+        for (std::size_t v = 0; v < rest.size(); ++v) {
+            const double distance = glm::distance(moved[v], motion(rest[v]));
+            grow(errors.rigid, distance / size);
+            grow(errors.rigidBeyond, (distance - kFree * size) / offsetLength(binding, v));
+        }
+    }
+    const SurfaceBinding bare = withoutOffsets(binding);
+    const sim::LatticeState stretched = deformedState(lattice, evenStretch);
+    errors.stretch = largestDistance(mapped(stretched, bare), stretchedReferences(lattice, bare)) / size;
+    if (keepsOffsets(mapping))
+        grow(errors.stretch,
+             largestDistance(mapped(stretched, binding), stretchedSurface(lattice, binding)) / size);
     return errors;
 }
 
@@ -179,6 +211,7 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
     const sim::Lattice lattice = sim::latticeFromCells(
         {{{0, 0, 0}, kFull}, {{1, 0, 0}, kFull}, {{0, 1, 0}, kFull}, {{1, 1, 0}, kFull}}, 1.0, glm::dvec3(0));
 
+    const ControlNodes control = controlNodes(lattice);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> sharing;
     for (std::uint32_t t = 0; t < lattice.boundary.size(); ++t)
         for (int i = 0; i < 3; ++i) {
@@ -196,21 +229,20 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
     SurfaceBinding binding;
     binding.mapping = mapping;
     for (const auto& [edge, triangles] : sharing) {
+        // At a third of the edge: 1/3 and 2/3 are multiples of 1/65535, so that both triangles say the same
+        // point.
         const glm::dvec3 middle =
-            0.5 * (lattice.restPosition(edge.first) + lattice.restPosition(edge.second));
+            lattice.restPosition(edge.first) / 3.0 + lattice.restPosition(edge.second) * (2 / 3.0);
         const glm::dvec3 up = glm::normalize(normalOf(triangles.at(0)) + normalOf(triangles.at(1)));
         for (const std::uint32_t t : {triangles[0], triangles[1]}) {
             VertexBinding vertex{};
-            const int first = diagonalStart(lattice, lattice.boundary[t]);
+            const int first = diagonalStart(control, lattice.boundary[t]);
             for (int i = 0; i < 3; ++i)
                 vertex.nodes[i] = lattice.boundary[t][(first + i) % 3];
-            // 1/2 is not a multiple of 1/65535; the remainder lies on the third node, along the same edge or
-            // to its corner
             for (int i = 0; i < 3; ++i)
-                if (vertex.nodes[i] == edge.first || vertex.nodes[i] == edge.second)
-                    vertex.weights[i] = i < 2 ? float(32768 / 65535.0) : 0.5F;
-            if (vertex.weights.x > 0 && vertex.weights.y > 0)
-                vertex.weights.y = float(32767 / 65535.0);
+                vertex.weights[i] = vertex.nodes[i] == edge.first    ? float(1 / 3.0)
+                                    : vertex.nodes[i] == edge.second ? float(2 / 3.0)
+                                                                     : 0.0F;
             binding.vertices.push_back(vertex);
             binding.triangles.push_back(t);
             points.positions.push_back(lattice.toWorld(middle + height * up));
@@ -220,8 +252,8 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
     for (std::uint32_t v = 0; v + 2 < count; ++v)
         points.faces.emplace_back(v, v + 1, v + 2);
 
-    SEROSA_ASSIGN(Stage stage,
-                  Stage::create(lattice, points, expressBinding(binding, lattice, points, mapping)));
+    SEROSA_ASSIGN(MappedStage stage,
+                  MappedStage::create(lattice, points, expressBinding(binding, lattice, points, mapping)));
     const glm::dvec3 centre = 0.5 * (lattice.restPosition(0) + lattice.restPosition(lattice.nodeCount() - 1));
     stage.upload(deformedState(
         lattice, [&](const glm::dvec3& q) { return bend(q, centre, kRadius); }, normals));

@@ -30,7 +30,10 @@ struct MappingErrors {
     double rigid = 0;       // largest distance from the rigidly moved vertex, of the surface's size
     double rigidBeyond = 0; // largest (distance - 1e-5 of the size) / offset, at least 0
     double normal = 0;      // largest angle between mapped and rigidly turned rest normals, rad
-    double stretch = 0; // largest distance of a reference point from the evenly stretched one, of the size
+    // Largest distance from what an even stretch S makes of a surface, of the size: of the reference points,
+    // S r, for every mapping; of the vertices, S r + o, for node frames, whose rotations an even stretch
+    // along the axes leaves alone; of the vertices, S v, for trilinear.
+    double stretch = 0;
     double twin =
         0; // largest distance from mapSurface (double) under the rigid motions and a bend, of the size
 };
@@ -40,6 +43,11 @@ struct MappingErrors {
 Result<MappingErrors> measureMapping(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                      sim::Mapping mapping, int motions,
                                      NodeNormals normals = NodeNormals::current);
+
+/// The same of the CPU's twin of the vertex stage (mapSurface): rest, rigid, rigidBeyond and stretch. Needs
+/// no context.
+MappingErrors measureMappingTwin(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                 sim::Mapping mapping, int motions);
 
 struct EdgeGaps {
     double largest = 0, rms = 0; // lattice units

@@ -3,40 +3,22 @@
 #include "render/surface_binding.h"
 
 #include "base/check.h"
+#include "render/basis_choice.h"
 #include "render/parallel.h"
 #include "render/surface_vertices.h"
 #include "render/triangle_basis.h"
 #include "render/triangle_choice.h"
-#include "shaders/shared_constants.h"
-#include "sim/packed_normal.h"
-#include "sim/solver.h"
+#include "shaders/mapping_constants.h"
+#include "sim/triangle_tree.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace serosa::render {
 
 namespace {
 
-// Where the corrected basis is not well defined, the constant one is used (MS05 3.6 asks for the choice per
-// vertex).
-constexpr double kShortestNormalSum = 0.5; // of eq. 3 at a node: one-node-thin sheets
-constexpr double kShortestMean = 0.35; // of eq. 8's N_c before it is normalized: nodes whose normals oppose
-constexpr double kSmallestSine = 0.3;  // between N_c and the first edge
-
-struct Rest {
-    const sim::Lattice& lattice;
-    std::vector<glm::dvec3> normals; // as packed
-    std::vector<bool> defined;       // eq. 3 is long enough
-
-    explicit Rest(const sim::Lattice& source) : lattice(source) {
-        const sim::LatticeState state = sim::restState(source);
-        const std::vector<glm::dvec3> sums = sim::restNormalSums(source);
-        for (std::size_t i = 0; i < source.nodeCount(); ++i) {
-            normals.emplace_back(sim::unpackNormal(state.normals[i]));
-            defined.push_back(glm::length(sums[i]) >= kShortestNormalSum);
-        }
-    }
-};
+using sim::Mapping;
 
 /// Weights as the GPU has them: w1 and w2 exact, w3 = 1 - w1 - w2.
 glm::dvec3 exactWeights(const glm::vec3& weights) {
@@ -44,112 +26,246 @@ glm::dvec3 exactWeights(const glm::vec3& weights) {
     return {w1, w2, 1 - w1 - w2};
 }
 
+BoundPoint boundPoint(const VertexBinding& bound, const ControlNodes& nodes, const glm::dvec3& vertex) {
+    return {bound.nodes,
+            {nodes.rest[bound.nodes.x], nodes.rest[bound.nodes.y], nodes.rest[bound.nodes.z]},
+            exactWeights(bound.weights),
+            vertex};
+}
+
+/// In the steps that the GPU has.
+double inSteps(double share) {
+    return std::round(share * SRS_SHARE_STEPS) / SRS_SHARE_STEPS;
+}
+
+double shareOf(Mapping mapping, const RestNormals& rest, const BoundPoint& point) {
+    if (mapping == Mapping::curvature)
+        return correctedIsDefined(rest, point) ? 1 : 0;
+    return mapping == Mapping::chosen ? inSteps(correctedShare(rest, point)) : 0;
+}
+
+/// The normal of the basis with a share of the corrected one, as shaders/mapping_triangle.glsl has it.
+glm::dvec3 sharedNormal(const RestNormals& rest, const BoundPoint& point, double share) {
+    const glm::dvec3 flat = triangleNormal(point.corners[0], point.corners[1], point.corners[2]);
+    if (share == 0)
+        return flat;
+    const glm::dvec3 mean = point.mean(rest);
+    return share == 1 ? mean : glm::mix(glm::normalize(flat), glm::normalize(mean), share);
+}
+
 /// Eq. 5-8 for one vertex whose triangle and weights stand.
-void express(VertexBinding& bound, const Rest& rest, const glm::dvec3& vertex, const glm::dvec3& normal,
-             sim::Mapping mapping) {
-    const glm::dvec3 p1 = rest.lattice.restPosition(bound.nodes.x),
-                     p2 = rest.lattice.restPosition(bound.nodes.y),
-                     p3 = rest.lattice.restPosition(bound.nodes.z);
-    const glm::dvec3 w = exactWeights(bound.weights), edge = p2 - p1;
-    const glm::dvec3 mean = w.x * rest.normals[bound.nodes.x] + w.y * rest.normals[bound.nodes.y] +
-                            w.z * rest.normals[bound.nodes.z];
-    const bool corrected =
-        mapping == sim::Mapping::curvature && rest.defined[bound.nodes.x] && rest.defined[bound.nodes.y] &&
-        rest.defined[bound.nodes.z] && glm::length(mean) >= kShortestMean &&
-        glm::length(glm::cross(mean, edge)) >= kSmallestSine * glm::length(mean) * glm::length(edge);
-    const TriangleBasis basis = basisAlong(corrected ? mean : triangleNormal(p1, p2, p3), edge);
-    bound.basis = corrected ? SRS_BASIS_CORRECTED : SRS_BASIS_CONSTANT;
-    bound.offset = inBasis(basis, vertex - (w.x * p1 + w.y * p2 + w.z * p3));
+void express(VertexBinding& bound, const RestNormals& rest, BoundPoint point, const glm::dvec3& normal,
+             Mapping mapping) {
+    bound.normalShares = glm::vec3(1);
+    if (mapping == Mapping::chosen)
+        for (int i = 0; i < 3; ++i) {
+            point.counts[i] = inSteps(rest.trust(bound.nodes[i]));
+            bound.normalShares[i] = float(point.counts[i]);
+        }
+    const double share = shareOf(mapping, rest, point);
+    bound.correctedShare = float(share);
+    const glm::dvec3 offset = point.vertex - point.reference();
+    if (mapping == Mapping::nodeFrames || mapping == Mapping::trilinear) {
+        bound.offset = offset;
+        bound.normal = normal;
+        return;
+    }
+    const TriangleBasis basis =
+        basisAlong(sharedNormal(rest, point, share), point.corners[1] - point.corners[0]);
+    bound.offset = inBasis(basis, offset);
     bound.normal = inBasis(basis, normal);
 }
 
-void expressAll(SurfaceBinding& binding, const sim::Lattice& lattice,
-                const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& normals,
-                sim::Mapping mapping) {
-    SEROSA_CHECK(mapping != sim::Mapping::oneToOne,
-                 "one-to-one draws the nodes themselves and has no binding");
-    const Rest rest(lattice);
-    binding.mapping = mapping;
-    binding.constantVertices = 0;
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        express(binding.vertices[v], rest, positions[v], normals[v], mapping);
-        binding.constantVertices += binding.vertices[v].basis == SRS_BASIS_CONSTANT;
-    }
-    binding.bytesPerVertex = sizeof(MappedVertex);
+/// MS05 3.5 for one vertex: where it lies on its normal, and the rest normal in the basis there.
+NormalOffset expressAlongNormal(VertexBinding& bound, const RestNormals& rest, BoundPoint point,
+                                const glm::dvec3& normal) {
+    const NormalOffset along = offsetAlongNormal(rest, point);
+    point.weights = exactWeights(along.weights);
+    bound.correctedShare = along.corrected ? 1.0F : 0.0F;
+    bound.offset = {0, along.distance, 0};
+    const TriangleBasis basis =
+        basisAlong(sharedNormal(rest, point, bound.correctedShare), point.corners[1] - point.corners[0]);
+    bound.normal = inBasis(basis, normal);
+    return along;
 }
 
-std::vector<glm::dvec3> inLattice(const sim::Lattice& lattice, const sim::TriangleMesh& metres) {
+std::size_t bytesOf(Mapping mapping) {
+    return mapping == Mapping::trilinear      ? sizeof(CellVertex)
+           : mapping == Mapping::normalOffset ? sizeof(NormalVertex)
+           : mapping == Mapping::chosen       ? sizeof(ChosenVertex)
+                                              : sizeof(MappedVertex);
+}
+
+/// What one of them needs beside the vertices is left to the caller: cells and frames.
+void expressVertices(SurfaceBinding& binding, const ControlNodes& nodes, const RestNormals& rest,
+                     const sim::TriangleMesh& metres, Mapping mapping) {
+    SEROSA_CHECK(mapping != Mapping::oneToOne, "one-to-one draws the nodes themselves and has no binding");
+    const std::vector<glm::dvec3> normals = metres.vertexNormals();
+    binding.mapping = mapping;
+    binding.alongNormal.assign(mapping == Mapping::normalOffset ? normals.size() : 0, {});
+    parallelFor(normals.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            VertexBinding& bound = binding.vertices[v];
+            const BoundPoint point = boundPoint(bound, nodes, nodes.toNodes(metres.positions[v]));
+            if (mapping == Mapping::normalOffset)
+                binding.alongNormal[v] = expressAlongNormal(bound, rest, point, normals[v]);
+            else
+                express(bound, rest, point, normals[v], mapping);
+        }
+    });
+    binding.constantVertices = binding.blendedVertices = 0;
+    const bool bases = mapping != Mapping::nodeFrames && mapping != Mapping::trilinear;
+    for (const VertexBinding& bound : binding.vertices) {
+        binding.constantVertices += bases && bound.correctedShare == 0;
+        binding.blendedVertices += bound.correctedShare > 0 && bound.correctedShare < 1;
+    }
+    binding.cells = {};
+    binding.frames = {};
+    binding.bytesPerVertex = double(bytesOf(mapping));
+}
+
+std::vector<glm::dvec3> inNodes(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
     std::vector<glm::dvec3> positions;
     positions.reserve(metres.positions.size());
     for (const glm::dvec3& p : metres.positions)
-        positions.push_back(lattice.toLattice(p));
+        positions.push_back(nodes.toNodes(p));
     return positions;
 }
 
-} // namespace
-
-SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                           sim::Mapping mapping) {
-    const std::vector<glm::dvec3> positions = inLattice(lattice, metres), normals = metres.vertexNormals();
-    TriangleChoice choice = chooseTriangles(lattice, metres.faces, positions, normals);
+/// Triangles and weights.
+SurfaceBinding choose(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
+    SEROSA_CHECK(!nodes.triangles.empty(), "triangles to follow (checkBinding)");
+    TriangleChoice choice =
+        chooseTriangles(nodes, metres.faces, inNodes(nodes, metres), metres.vertexNormals());
     SurfaceBinding binding;
     binding.tornEdgesFound = choice.tornEdgesFound;
     binding.tornEdgesLeft = choice.tornEdgesLeft;
-    binding.vertices.resize(positions.size());
-    for (std::size_t v = 0; v < positions.size(); ++v) {
+    binding.vertices.resize(metres.positions.size());
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
         VertexBinding& bound = binding.vertices[v];
-        const glm::uvec3& nodes = lattice.boundary[choice.triangles[v]];
-        const int first = diagonalStart(lattice, nodes);
+        const glm::uvec3& corners = nodes.triangles[choice.triangles[v]];
+        const int first = diagonalStart(nodes, corners);
         for (int i = 0; i < 3; ++i) {
-            bound.nodes[i] = nodes[(first + i) % 3];
+            bound.nodes[i] = corners[(first + i) % 3];
             const double weight = choice.weights[v][(first + i) % 3];
-            bound.weights[i] = float(std::round(weight * kWeightSteps) / kWeightSteps);
+            bound.weights[i] = float(std::round(weight * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
         }
         bound.weights.z = float(exactWeights(bound.weights).z);
     }
     binding.triangles = std::move(choice.triangles);
-    expressAll(binding, lattice, positions, normals, mapping);
     return binding;
 }
 
+} // namespace
+
+SurfaceBinding bindSurface(const ControlNodes& nodes, const sim::TriangleMesh& metres, Mapping mapping) {
+    SEROSA_CHECK(mapping != Mapping::trilinear, "nodes without a lattice have no cells");
+    SurfaceBinding binding = choose(nodes, metres);
+    expressVertices(binding, nodes, RestNormals(nodes), metres, mapping);
+    if (mapping == Mapping::nodeFrames)
+        binding.frames = frameStencil(nodes);
+    return binding;
+}
+
+SurfaceBinding bindSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres, Mapping mapping) {
+    return expressBinding(choose(controlNodes(lattice), metres), lattice, metres, mapping);
+}
+
 SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice& lattice,
-                              const sim::TriangleMesh& metres, sim::Mapping mapping) {
+                              const sim::TriangleMesh& metres, Mapping mapping,
+                              const std::vector<std::uint32_t>& connections) {
     SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
     SurfaceBinding other = binding;
-    expressAll(other, lattice, inLattice(lattice, metres), metres.vertexNormals(), mapping);
+    const ControlNodes nodes = controlNodes(lattice);
+    expressVertices(other, nodes, RestNormals(lattice, connections), metres, mapping);
+    if (mapping == Mapping::trilinear)
+        other.cells = bindToCells(lattice, inNodes(nodes, metres));
+    if (mapping == Mapping::nodeFrames)
+        other.frames = frameStencil(lattice, connections);
     return other;
 }
 
-std::vector<glm::dvec3> mapSurface(const SurfaceBinding& binding,
-                                   const std::vector<glm::dvec3>& nodePositions,
-                                   const std::vector<std::uint32_t>& packedNormals) {
-    std::vector<glm::dvec3> mapped;
-    mapped.reserve(binding.vertices.size());
-    for (const VertexBinding& bound : binding.vertices) {
-        const glm::dvec3 &p1 = nodePositions[bound.nodes.x], &p2 = nodePositions[bound.nodes.y],
-                         &p3 = nodePositions[bound.nodes.z];
-        const glm::dvec3 w = exactWeights(bound.weights);
-        glm::dvec3 normal = triangleNormal(p1, p2, p3);
-        if (bound.basis == SRS_BASIS_CORRECTED)
-            normal = w.x * glm::dvec3(sim::unpackNormal(packedNormals[bound.nodes.x])) +
-                     w.y * glm::dvec3(sim::unpackNormal(packedNormals[bound.nodes.y])) +
-                     w.z * glm::dvec3(sim::unpackNormal(packedNormals[bound.nodes.z]));
-        const glm::dvec3 offset = fromBasis(basisAlong(normal, p2 - p1), glm::dvec3(bound.offset));
-        mapped.push_back(w.x * p1 + w.y * p2 + w.z * p3 + offset);
-    }
-    return mapped;
+TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const sim::Lattice& lattice,
+                       const RestNormals& rest) {
+    if (binding.mapping == Mapping::nodeFrames || binding.mapping == Mapping::trilinear)
+        return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const VertexBinding& bound = binding.vertices[vertex];
+    BoundPoint point{
+        bound.nodes, {}, exactWeights(bound.weights), glm::dvec3(0), glm::dvec3(bound.normalShares)};
+    for (int i = 0; i < 3; ++i)
+        point.corners[i] = lattice.restPosition(bound.nodes[i]);
+    if (binding.mapping == Mapping::normalOffset)
+        point.weights = exactWeights(binding.alongNormal[vertex].weights);
+    return basisAlong(sharedNormal(rest, point, bound.correctedShare), point.corners[1] - point.corners[0]);
 }
 
-std::vector<glm::dvec3> referencePoints(const SurfaceBinding& binding,
-                                        const std::vector<glm::dvec3>& nodePositions) {
-    std::vector<glm::dvec3> points;
-    points.reserve(binding.vertices.size());
-    for (const VertexBinding& bound : binding.vertices) {
-        const glm::dvec3 w = exactWeights(bound.weights);
-        points.push_back(w.x * nodePositions[bound.nodes.x] + w.y * nodePositions[bound.nodes.y] +
-                         w.z * nodePositions[bound.nodes.z]);
+VertexBinding bindVertex(const ControlNodes& nodes, const glm::uvec3& triangle, const glm::dvec3& weights,
+                         const glm::dvec3& place, const glm::dvec3& normal) {
+    const int first = diagonalStart(nodes, triangle);
+    VertexBinding bound{};
+    glm::dvec3 p[3];
+    for (int i = 0; i < 3; ++i) {
+        const int corner = (first + i) % 3;
+        bound.nodes[i] = triangle[corner];
+        bound.weights[i] = float(std::round(weights[corner] * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
+        p[i] = nodes.rest[triangle[corner]];
     }
-    return points;
+    const glm::dvec3 w = exactWeights(bound.weights);
+    bound.weights.z = float(w.z);
+    bound.normalShares = glm::vec3(1);
+    const TriangleBasis basis = basisAlong(triangleNormal(p[0], p[1], p[2]), p[1] - p[0]);
+    bound.offset = glm::vec3(inBasis(basis, place - (w.x * p[0] + w.y * p[1] + w.z * p[2])));
+    bound.normal = glm::vec3(inBasis(basis, normal));
+    return bound;
+}
+
+SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<VertexCopy>& copies,
+                          const sim::Lattice& lattice) {
+    SurfaceBinding all = binding;
+    const bool frames = binding.mapping == Mapping::nodeFrames,
+               asTheyDo = binding.mapping == Mapping::normalOffset || binding.mapping == Mapping::trilinear;
+    for (const VertexCopy& copy : copies) {
+        VertexBinding bound = copy.binding && !asTheyDo ? *copy.binding : binding.vertices[copy.vertex];
+        if (copy.binding && frames) { // its offset and normal in the lattice's axes
+            const glm::dvec3 p1 = lattice.restPosition(bound.nodes.x),
+                             p2 = lattice.restPosition(bound.nodes.y);
+            const TriangleBasis basis =
+                basisAlong(triangleNormal(p1, p2, lattice.restPosition(bound.nodes.z)), p2 - p1);
+            bound.offset = glm::vec3(fromBasis(basis, glm::dvec3(bound.offset)));
+            bound.normal = glm::vec3(fromBasis(basis, glm::dvec3(bound.normal)));
+        }
+        all.vertices.push_back(bound);
+        if (!all.alongNormal.empty())
+            all.alongNormal.push_back(binding.alongNormal[copy.vertex]);
+        if (!all.cells.vertices.empty())
+            all.cells.vertices.push_back(binding.cells.vertices[copy.vertex]);
+    }
+    return all;
+}
+
+Status checkBinding(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
+    if (nodes.triangles.empty())
+        return Error{"the nodes have no triangles that a surface could follow: give a mesh with faces"};
+    if (metres.faces.empty())
+        return Error{"the surface has no faces: give a mesh with faces"};
+    const sim::TriangleTree tree(nodes.rest, nodes.triangles);
+    double farthest = 0;
+    std::size_t vertex = 0;
+    for (std::size_t v = 0; v < metres.positions.size(); ++v)
+        if (const double distance = std::sqrt(tree.closest(nodes.toNodes(metres.positions[v])).distance2);
+            !(distance <= farthest)) {
+            farthest = distance;
+            vertex = v;
+        }
+    if (farthest <= kFarthestSpacings)
+        return {};
+    std::ostringstream text;
+    text.precision(4);
+    text << "vertex " << vertex << " of the surface (the first is 0) lies " << 1e3 * farthest * nodes.spacing
+         << " mm from the nearest triangle of nodes, " << farthest << " times their spacing of "
+         << 1e3 * nodes.spacing << " mm, and at most " << kFarthestSpacings
+         << " can be followed: do the two belong together, in one unit and one place?";
+    return Error{text.str()};
 }
 
 } // namespace serosa::render

@@ -3,12 +3,15 @@
 #include "base/check.h"
 #include "gpu/gl.h"
 #include "render/baked_occlusion.h"
+#include "render/basis_choice.h"
 #include "render/surface_vertices.h"
+#include "shaders/mapping_constants.h"
 #include "shaders/shared_constants.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace serosa::render {
 
@@ -16,8 +19,6 @@ namespace {
 
 using sim::SurfaceColour;
 
-constexpr SurfaceStage kStages[] = {SurfaceStage::undeformed, SurfaceStage::constant, SurfaceStage::corrected,
-                                    SurfaceStage::nodes};
 constexpr int kCapturedBytes = 24;         // position and normal of a vertex
 constexpr glm::u8vec3 kFlesh{158, 62, 54}; // sRGB of kFleshColour, where the mesh has no colours
 
@@ -54,34 +55,80 @@ void addColour(std::vector<gpu::ShaderDefine>& defines, SurfaceColour colour) {
         defines.push_back({"SURFACE_PLAIN", ""});
 }
 
-gpu::ShaderDefine stageDefine(SurfaceStage stage) {
-    return stage == SurfaceStage::nodes        ? gpu::ShaderDefine{"SURFACE_NODES", ""}
-           : stage == SurfaceStage::undeformed ? gpu::ShaderDefine{"SURFACE_STATIC", ""}
-                                               : gpu::ShaderDefine{"SURFACE_MAPPED", ""};
+/// The define MAPPING of a stage.
+int mappingOf(SurfaceStage stage, bool anyConstant) {
+    switch (stage) {
+    case SurfaceStage::corrected:
+        return anyConstant ? SRS_MAP_EITHER : SRS_MAP_CORRECTED;
+    case SurfaceStage::chosen:
+        return SRS_MAP_BLENDED;
+    case SurfaceStage::alongNormal:
+        return SRS_MAP_NORMAL;
+    case SurfaceStage::nodeFrames:
+        return SRS_MAP_FRAMES;
+    case SurfaceStage::inCells:
+        return SRS_MAP_CELLS;
+    default:
+        return SRS_MAP_CONSTANT;
+    }
+}
+
+bool isMapped(SurfaceStage stage) {
+    return stage != SurfaceStage::undeformed && stage != SurfaceStage::nodes;
 }
 
 } // namespace
 
+SurfaceStage stageOf(sim::Mapping mapping) {
+    switch (mapping) {
+    case sim::Mapping::oneToOne:
+        return SurfaceStage::nodes;
+    case sim::Mapping::triangle:
+        return SurfaceStage::constant;
+    case sim::Mapping::chosen:
+        return SurfaceStage::chosen;
+    case sim::Mapping::normalOffset:
+        return SurfaceStage::alongNormal;
+    case sim::Mapping::trilinear:
+        return SurfaceStage::inCells;
+    case sim::Mapping::nodeFrames:
+        return SurfaceStage::nodeFrames;
+    case sim::Mapping::curvature:
+        break;
+    }
+    return SurfaceStage::corrected;
+}
+
+std::vector<SurfaceStage> SurfacePasses::mappedStages() const {
+    std::vector<SurfaceStage> stages;
+    for (const auto& [stage, geometry] : geometry_)
+        if (isMapped(stage))
+            stages.push_back(stage);
+    return stages;
+}
+
 std::vector<gpu::ShaderDefine> SurfacePasses::defines(SurfaceStage stage) const {
-    const bool corrected = stage == SurfaceStage::corrected;
-    std::vector<gpu::ShaderDefine> all = {stageDefine(stage),
-                                          {"MAPPING_BASIS", !corrected     ? "0"
-                                                            : anyConstant_ ? "2"
-                                                                           : "1"}};
-    if (stage != SurfaceStage::nodes && usesRest())
+    std::vector<gpu::ShaderDefine> all;
+    if (stage == SurfaceStage::nodes)
+        return {{"SURFACE_NODES", ""}};
+    if (stage == SurfaceStage::undeformed)
+        all.push_back({"SURFACE_STATIC", ""});
+    else
+        all.push_back({"MAPPING", std::to_string(mappingOf(stage, anyConstant_))});
+    if (usesRest())
         all.push_back({"SURFACE_REST", ""});
-    if (stage != SurfaceStage::nodes && mask_)
+    if (mask_)
         all.push_back({"SURFACE_CUT", ""});
-    if (stage != SurfaceStage::nodes && textures_)
+    if (textures_)
         all.push_back({"SURFACE_TEXTURED", ""});
-    if (stage != SurfaceStage::nodes && textures_ && !drawn_.textures.empty())
+    if (textures_ && !drawn_.textures.empty())
         all.push_back({"SURFACE_UV", ""});
     return all;
 }
 
 Result<SurfacePasses::Programs> SurfacePasses::compile(const gpu::ShaderLibrary& library) const {
     Programs programs;
-    for (const SurfaceStage stage : kStages)
+    for (const auto& [stage, geometry] : geometry_)
         for (const SurfaceColour colour : kColours) {
             std::vector<gpu::ShaderDefine> all = defines(stage);
             addColour(all, colour);
@@ -94,7 +141,7 @@ Result<SurfacePasses::Programs> SurfacePasses::compile(const gpu::ShaderLibrary&
 
 Result<SurfacePasses::Programs> SurfacePasses::compileBlend(const gpu::ShaderLibrary& library) const {
     Programs programs;
-    for (const SurfaceStage stage : {SurfaceStage::constant, SurfaceStage::corrected}) {
+    for (const SurfaceStage stage : mappedStages()) {
         for (const SurfaceColour colour : kColours) {
             std::vector<gpu::ShaderDefine> all = defines(stage);
             all.push_back({"SURFACE_BLEND", ""});
@@ -113,7 +160,7 @@ Status SurfacePasses::prepareBlend() {
         return {};
     const gpu::ShaderLibrary library;
     SEROSA_ASSIGN(blendPrograms_, compileBlend(library));
-    for (const SurfaceStage stage : {SurfaceStage::constant, SurfaceStage::corrected}) {
+    for (const SurfaceStage stage : mappedStages()) {
         std::vector<gpu::ShaderDefine> all = defines(stage);
         SEROSA_ASSIGN(gpu::Program start,
                       gpu::Program::create(library, {"lod_blend.vert"}, all, {"v_offset", "v_normal"}));
@@ -127,52 +174,12 @@ Status SurfacePasses::prepareBlend() {
 }
 
 Status SurfacePasses::createCaptures() {
-    for (const SurfaceStage stage : kStages) {
+    for (const auto& [stage, geometry] : geometry_) {
         SEROSA_ASSIGN(gpu::Program capture, gpu::Program::create(gpu::ShaderLibrary(), {"surface.vert"},
                                                                  defines(stage), {"v_position", "v_normal"}));
         captures_.emplace(stage, std::move(capture));
     }
     return {};
-}
-
-void SurfacePasses::setMapped(SurfaceStage stage, const std::vector<MappedVertex>& vertices) {
-    Geometry& geometry = geometry_[stage];
-    geometry.vertices = gpu::Buffer("mapped surface", std::span<const MappedVertex>(vertices));
-    if (!geometry.array)
-        geometry.array = gpu::VertexArray("mapped surface");
-    const int stride = sizeof(MappedVertex);
-    geometry.array.integerAttribute(0, geometry.vertices, 3, GL_UNSIGNED_INT, stride,
-                                    offsetof(MappedVertex, texels));
-    geometry.array.attribute(1, geometry.vertices, 2, GL_UNSIGNED_SHORT, true, stride,
-                             offsetof(MappedVertex, weights));
-    geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
-                             offsetof(MappedVertex, offset));
-    geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
-                                    offsetof(MappedVertex, normal));
-    geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
-                             offsetof(MappedVertex, colour));
-}
-
-void SurfacePasses::setRest(SurfaceStage stage, const std::vector<RestVertex>& vertices) {
-    Geometry& geometry = geometry_.at(stage);
-    geometry.rest = gpu::Buffer("surface at rest", std::span<const RestVertex>(vertices));
-    const int stride = sizeof(RestVertex);
-    geometry.array.attribute(7, geometry.rest, 4, GL_UNSIGNED_SHORT, true, stride,
-                             offsetof(RestVertex, position));
-    geometry.array.integerAttribute(8, geometry.rest, 2, GL_UNSIGNED_INT, stride,
-                                    offsetof(RestVertex, normal));
-}
-
-void SurfacePasses::createRest(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                               const SurfaceBinding& binding) {
-    restBox_ = restBox(lattice, metres);
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
-        const SurfaceBinding other =
-            mapping == binding.mapping ? binding : expressBinding(binding, lattice, metres, mapping);
-        setRest(mapping == sim::Mapping::triangle ? SurfaceStage::constant : SurfaceStage::corrected,
-                inBuffers(restVertices(lattice, restBox_, metres, &other)));
-    }
-    setRest(SurfaceStage::undeformed, inBuffers(restVertices(lattice, restBox_, metres, nullptr)));
 }
 
 void SurfacePasses::setIndices(const std::vector<std::uint32_t>& indices) {
@@ -184,31 +191,38 @@ void SurfacePasses::setIndices(const std::vector<std::uint32_t>& indices) {
                        {}});
 }
 
+Status SurfacePasses::recompile() {
+    const gpu::ShaderLibrary library;
+    SEROSA_ASSIGN(programs_, compile(library));
+    depthPrograms_.clear();
+    blendDepthPrograms_.clear();
+    captures_.clear();
+    SEROSA_TRY(createCaptures());
+    if (blendStarts_.empty())
+        return {};
+    blendStarts_.clear();
+    blendCaptures_.clear();
+    return prepareBlend();
+}
+
 Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                      const SurfaceBinding& binding, const sim::TextureLayout& layout) {
     const CacheOrder order = cacheOrder(drawn_.faces, drawn_.origin.size());
     newIndex_ = order.newIndex;
     const glm::vec3 mean = textures_ ? 1.0F / textures_->albedoScale : glm::vec3(0);
     colours_ = vertexColours(metres, textures_ ? &mean : nullptr);
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature}) {
-        const bool given = mapping == binding.mapping;
-        setMapped(
-            mapping == sim::Mapping::triangle ? SurfaceStage::constant : SurfaceStage::corrected,
-            inBuffers(mappedVertices(given ? binding : expressBinding(binding, lattice, metres, mapping),
-                                     layout, colours_)));
+    std::vector<SurfaceBinding> bindings{binding};
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
+        if (mapping != binding.mapping)
+            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
+    const RestNormals rest(lattice);
+    restBox_ = restBox(lattice, metres);
+    for (const SurfaceBinding& one : bindings) {
+        SEROSA_TRY(createMapped(one, layout));
+        if (textures_)
+            createRest(one, lattice, metres, rest);
     }
-
-    const auto still = inBuffers(staticVertices(lattice, metres, colours_));
-    Geometry& geometry = geometry_[SurfaceStage::undeformed];
-    geometry.vertices = gpu::Buffer("undeformed surface", std::span<const StaticVertex>(still));
-    geometry.array = gpu::VertexArray("undeformed surface");
-    const int stride = sizeof(StaticVertex);
-    geometry.array.attribute(2, geometry.vertices, 3, GL_FLOAT, false, stride,
-                             offsetof(StaticVertex, position));
-    geometry.array.integerAttribute(3, geometry.vertices, 1, GL_UNSIGNED_INT, stride,
-                                    offsetof(StaticVertex, normal));
-    geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
-                             offsetof(StaticVertex, colour));
+    createStatic(lattice, metres);
     setIndices(order.indices);
     SEROSA_TRY(createLevels(lattice, metres, binding, layout, order.indices));
     createNodes(lattice.boundary, layout);
@@ -252,24 +266,33 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     passes.drawn_ = drawnVertices(detail ? metres : plain, metres.vertexNormals());
     const bool corrected = binding.mapping == sim::Mapping::curvature;
     passes.anyConstant_ = !corrected || binding.constantVertices > 0;
+    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
     SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
     SEROSA_TRY(passes.createCaptures());
-    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
-    if (detail) {
-        passes.createRest(lattice, metres, binding);
+    if (detail)
         passes.createUvs();
-    }
     return passes;
 }
 
-void SurfacePasses::setVertexInputs(gpu::Program& program, const sim::StateTextures* state,
-                                    const Frame& frame, SurfaceStage stage) const {
+void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& state, SurfaceStage stage) {
+    if (stage == SurfaceStage::undeformed)
+        return;
+    program.texture("t_positions", state.positions());
+    if (stage == SurfaceStage::inCells)
+        program.texture("t_cells", cells_);
+    if (stage == SurfaceStage::nodeFrames) {
+        frames_->run(state.positions());
+        program.texture("t_frames", frames_->frames());
+    }
+}
+
+void SurfacePasses::setVertexInputs(gpu::Program& program, const sim::StateTextures& state,
+                                    const Frame& frame, SurfaceStage stage) {
     if (blends(stage))
         setBlendUniforms(program);
     program.set("u_clipFromLattice", frame.clipFromLattice);
     program.set("u_section", frame.section);
-    if (stage != SurfaceStage::undeformed)
-        program.texture("t_positions", state->positions());
+    setNodes(program, state, stage);
     if (usesRest() && stage != SurfaceStage::nodes)
         program.set("u_restFrom", restBox_.from).set("u_restExtent", restBox_.extent);
     if (stage == SurfaceStage::nodes)
@@ -278,11 +301,12 @@ void SurfacePasses::setVertexInputs(gpu::Program& program, const sim::StateTextu
 
 gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                                      SurfaceColour colour, const glm::vec3& bare) {
+    SEROSA_CHECK(draws(stage), "a mapping that was prepared");
     // Colours of materials are those of the vertices, as the tissue's are.
     gpu::Program& program =
         (blends(stage) ? blendPrograms_ : programs_)
             .at({stage, colour == SurfaceColour::material ? SurfaceColour::tissue : colour});
-    setVertexInputs(program, &state, frame, stage);
+    setVertexInputs(program, state, frame, stage);
     if (mask_ && stage != SurfaceStage::nodes) {
         mask_->bind(program);
         program.set("u_blood", frame.blood ? 1 : 0);
@@ -319,7 +343,7 @@ void SurfacePasses::drawDepth(const sim::StateTextures& state, const Frame& fram
         SEROSA_CHECK(made.ok(), "the vertex stage compiled before");
         program = std::move(made).value();
     }
-    setVertexInputs(program, &state, frame, stage);
+    setVertexInputs(program, state, frame, stage);
     if (mask_ && stage != SurfaceStage::nodes)
         mask_->bind(program);
     program.use();
@@ -351,7 +375,8 @@ void SurfacePasses::draw(const sim::StateTextures& state, const Frame& frame, Su
     const std::size_t level = stage == SurfaceStage::nodes ? 0 : levelFor(frame);
     lastLevel_ = level;
     lastCulled_.reset();
-    const bool mapped = stage == SurfaceStage::constant || stage == SurfaceStage::corrected;
+    const bool mapped =
+        isMapped(stage) && stage != SurfaceStage::inCells; // cells do not keep an offset's length
     if (frame.cull && !sectioned && mapped && !blends(stage) && !levels_.empty() && levels_[level].clusters)
         drawClusters(state, frame, stage, level, program);
     else
@@ -377,7 +402,7 @@ void SurfacePasses::feedBack(SurfaceStage stage, const gpu::Program& program, co
     glEnable(GL_RASTERIZER_DISCARD);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, into.id());
     glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, GLsizei(newIndex_.size()));
+    glDrawArrays(GL_POINTS, 0, GLsizei(vertexCount()));
     glEndTransformFeedback();
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
     glDisable(GL_RASTERIZER_DISCARD);
@@ -386,10 +411,26 @@ void SurfacePasses::feedBack(SurfaceStage stage, const gpu::Program& program, co
 gpu::Buffer SurfacePasses::shown(const sim::StateTextures& state, SurfaceStage stage) {
     SEROSA_CHECK(stage != SurfaceStage::nodes, "node positions are in the state texture already");
     gpu::Program& program = (blends(stage) ? blendCaptures_ : captures_).at(stage);
-    setVertexInputs(program, &state, Frame{}, stage);
-    gpu::Buffer captured("captured vertices", newIndex_.size() * kCapturedBytes, nullptr);
+    setVertexInputs(program, state, Frame{}, stage);
+    gpu::Buffer captured("captured vertices", vertexCount() * kCapturedBytes, nullptr);
     feedBack(stage, program, captured);
     return captured;
+}
+
+Result<std::vector<glm::mat3>> SurfacePasses::captureAxes(const sim::StateTextures& state,
+                                                          SurfaceStage stage) {
+    SEROSA_CHECK(isMapped(stage) && draws(stage), "a mapping that was prepared");
+    SEROSA_ASSIGN(gpu::Program program,
+                  gpu::Program::create(gpu::ShaderLibrary(), {"mapped_axes.vert"}, defines(stage),
+                                       {"v_tangent", "v_axis", "v_bitangent"}));
+    setNodes(program, state, stage);
+    std::vector<glm::mat3> captured(vertexCount()), axes;
+    const gpu::Buffer buffer("captured axes", captured.size() * sizeof captured[0], nullptr);
+    feedBack(stage, program, buffer);
+    buffer.download(0, buffer.bytes(), captured.data());
+    for (std::size_t v = 0; v < meshVertices_; ++v)
+        axes.push_back(captured[newIndex_[v]]);
+    return axes;
 }
 
 void SurfacePasses::attachBlend(SurfaceStage stage, const gpu::Buffer& buffer) {
@@ -403,8 +444,8 @@ void SurfacePasses::startBlend(const sim::StateTextures& state, SurfaceStage sta
     gpu::Program& program = blendStarts_.at(stage);
     attachBlend(stage, shown);
     program.set("u_shownScale", scale).set("u_shownShift", shift);
-    program.texture("t_positions", state.positions());
-    blend_ = gpu::Buffer("switch of detail", newIndex_.size() * kCapturedBytes, nullptr);
+    setNodes(program, state, stage);
+    blend_ = gpu::Buffer("switch of detail", vertexCount() * kCapturedBytes, nullptr);
     feedBack(stage, program, blend_);
     attachBlend(stage, blend_);
     blendStage_ = stage;
@@ -425,7 +466,7 @@ void SurfacePasses::setBlend(SurfaceStage stage, const std::vector<float>& blend
     blendStage_.reset();
     if (blend.empty())
         return;
-    SEROSA_CHECK(blend.size() * sizeof(float) == newIndex_.size() * kCapturedBytes, "six floats a vertex");
+    SEROSA_CHECK(blend.size() * sizeof(float) == vertexCount() * kCapturedBytes, "six floats a vertex");
     blend_ = gpu::Buffer("switch of detail", std::span<const float>(blend));
     attachBlend(stage, blend_);
     blendStage_ = stage;
@@ -443,7 +484,7 @@ SurfacePasses::Captured SurfacePasses::capture(const sim::StateTextures& state, 
         glm::vec3 position, normal;
     };
     static_assert(sizeof(Item) == kCapturedBytes, "two outputs");
-    std::vector<Item> items(newIndex_.size());
+    std::vector<Item> items(vertexCount());
     shown(state, stage).download(0, items.size() * sizeof(Item), items.data());
 
     Captured result;

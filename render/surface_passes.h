@@ -1,5 +1,5 @@
 #pragma once
-// The surface on the GPU: vertex buffers for both bases, for the undeformed twin and for the lattice's own
+// The surface on the GPU: vertex buffers for the mappings, for the undeformed twin and for the lattice's own
 // boundary, and one program for each way to draw them (shaders/surface.vert, surface.frag).
 
 #include "base/result.h"
@@ -7,6 +7,7 @@
 #include "render/cut_mask.h"
 #include "render/cut_surface.h"
 #include "render/frame.h"
+#include "render/frame_pass.h"
 #include "render/surface_binding.h"
 #include "render/surface_clusters.h"
 #include "render/surface_seams.h"
@@ -25,17 +26,22 @@ struct SurfaceDetail {
     double tile = 0, relief = 0; // m
 };
 
-enum class SurfaceStage { undeformed, constant, corrected, nodes };
+enum class SurfaceStage { undeformed, nodes, constant, corrected, chosen, alongNormal, inCells, nodeFrames };
+
+/// The stage that draws a mapping.
+SurfaceStage stageOf(sim::Mapping mapping);
 
 inline constexpr glm::vec3 kFleshColour{0.342F, 0.048F, 0.037F}; // linear
 inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behind the lattice's lines
 
 class SurfacePasses {
 public:
+    /// Ready to draw both bases of MS05, the binding's own mapping, the undeformed twin and the boundary.
     /// \param detail null: no texture
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                         const SurfaceBinding& binding, const sim::TextureLayout& layout,
                                         const SurfaceDetail* detail = nullptr);
+    bool draws(SurfaceStage stage) const { return geometry_.count(stage) > 0; }
 
     using Programs = std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program>;
     /// The drawing programs from another source. Errors: as gpu::Program::create.
@@ -61,6 +67,9 @@ public:
     };
     Captured capture(const sim::StateTextures& state, SurfaceStage stage);
 
+    /// The axes that turn with each vertex, of a stage with a mapping. Errors: of the shader.
+    Result<std::vector<glm::mat3>> captureAxes(const sim::StateTextures& state, SurfaceStage stage);
+
     // A switch of level of detail: another SurfacePasses, of the same mesh over another lattice, drew it
     // until now. What the two differ by fades in the frames that follow.
 
@@ -68,7 +77,7 @@ public:
     Status prepareBlend();
     /// Positions (its lattice units) and normals as they are drawn, two vec3 a vertex in the buffers' order.
     gpu::Buffer shown(const sim::StateTextures& state, SurfaceStage stage);
-    /// Draws `stage` (constant or corrected) from now on with what is missing to what the other one showed.
+    /// Draws `stage` (one with a mapping) from now on with what is missing to what the other one showed.
     /// \param scale, shift from its lattice units to this one's
     /// \param step lattice units that the fading may move a vertex a frame
     void startBlend(const sim::StateTextures& state, SurfaceStage stage, const gpu::Buffer& shown,
@@ -79,11 +88,22 @@ public:
     std::vector<float> blend() const;
     void setBlend(SurfaceStage stage, const std::vector<float>& blend, float step);
 
-    /// Draws from now on what cuts left of the mesh, and these triangles over nodes for stage nodes. The
-    /// other arguments are those of create.
-    void show(const CutSurface& cut, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-              const SurfaceBinding& binding, const std::vector<glm::uvec3>& boundary,
-              const sim::TextureLayout& layout);
+    /// Draws from now on what cuts left of the mesh, bound anew, and these triangles over nodes for stage
+    /// nodes; nothing fades any more. \param bindings of all mappings that it draws. Errors: of the shaders.
+    Status show(const CutSurface& cut, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                const std::vector<SurfaceBinding>& bindings, const std::vector<glm::uvec3>& boundary,
+                const sim::TextureLayout& layout);
+    /// Vertices of the buffers beyond those of the surface: copies along cuts.
+    struct Copy {
+        std::uint32_t vertex = 0; // of the mesh
+        int side = 0;
+        std::uint32_t drawn = 0; // the vertex of the surface that it is one of
+        auto operator<=>(const Copy&) const = default;
+    };
+    const std::vector<Copy>& copies() const { return copies_; }
+    /// What shown() gave before show() in the buffers' order of now: a copy that is new was shown where its
+    /// vertex was. Reads back.
+    gpu::Buffer shownAfter(const gpu::Buffer& shown, const std::vector<Copy>& copiesBefore) const;
 
     /// Makes the mask that strokes paint, and programs that ask it. Errors: of CutMask::create, of shaders.
     Status openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout);
@@ -100,24 +120,26 @@ private:
     SurfacePasses() = default;
     Status createCaptures();
     Result<Programs> compileBlend(const gpu::ShaderLibrary& library) const;
-    /// Buffers of a stage, of vertices in the buffers' order.
-    void setMapped(SurfaceStage stage, const std::vector<MappedVertex>& vertices);
-    void setRest(SurfaceStage stage, const std::vector<RestVertex>& vertices);
-    /// Rest states for all stages, from the arguments of create.
-    void createRest(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                    const SurfaceBinding& binding);
-    /// Vertices of all stages with those along cuts: pairs of a copy and the drawn vertex that it is one of.
-    void fillCut(const CutSurface& cut, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& extras,
-                 const sim::Lattice& lattice, const sim::TriangleMesh& metres, const SurfaceBinding& binding,
-                 const sim::TextureLayout& layout);
     void setIndices(const std::vector<std::uint32_t>& indices);
     void createTextures(const SurfaceDetail& detail, const sim::Lattice& lattice);
     void createUvs();
     void attachUvs();
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
+    std::vector<SurfaceStage> mappedStages() const;
     Status createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                           const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    /// The vertex buffer of a binding's mapping, of the surface and then of the copies along cuts.
+    Status createMapped(const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    /// Their rest states, where cuts or textures ask for them.
+    void createRest(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                    const sim::TriangleMesh& metres, const RestNormals& rest);
+    /// The undeformed twin, without and with a rest state.
+    void createStatic(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
+    void createStaticRest(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
+    void setRest(SurfaceStage stage, const std::vector<RestVertex>& vertices);
     void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
+    /// All programs once more, after what defines() says has changed.
+    Status recompile();
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage, std::size_t level);
@@ -128,15 +150,19 @@ private:
     std::size_t levelFor(const Frame& frame) const;
     void drawClusters(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                       std::size_t level, const gpu::Program& program);
-    void setVertexInputs(gpu::Program& program, const sim::StateTextures* state, const Frame& frame,
-                         SurfaceStage stage) const;
+    /// What a stage reads of the nodes; brings node frames up to date.
+    void setNodes(gpu::Program& program, const sim::StateTextures& state, SurfaceStage stage);
+    void setVertexInputs(gpu::Program& program, const sim::StateTextures& state, const Frame& frame,
+                         SurfaceStage stage);
     bool usesRest() const { return mask_ || textures_; }
-    /// Items of mesh vertices as the buffers have them.
+    std::size_t vertexCount() const { return newIndex_.size() + copies_.size(); }
+    /// Items of mesh vertices, and after them of copies, as the buffers have them.
     template <class T>
     std::vector<T> inBuffers(const std::vector<T>& items) const {
         std::vector<T> ordered(drawn_.origin.size());
         for (std::size_t i = 0; i < ordered.size(); ++i)
             ordered[newIndex_[i]] = items[drawn_.origin[i]];
+        ordered.insert(ordered.end(), items.begin() + std::ptrdiff_t(meshVertices_), items.end());
         return ordered;
     }
     bool blends(SurfaceStage stage) const { return blendStage_ == stage; }
@@ -148,7 +174,11 @@ private:
     Programs programs_;
     std::map<SurfaceStage, gpu::Program> captures_;
     std::map<SurfaceStage, Geometry> geometry_;
-    std::optional<SurfaceStage> blendStage_; // while a switch of detail fades
+    std::vector<glm::u8vec4> colours_;       // one a mesh vertex
+    gpu::Texture2D cells_;                   // of stage inCells
+    std::optional<FramePass> frames_;        // of stage nodeFrames
+    std::vector<Copy> copies_;               // in the buffers after the surface's vertices
+    std::optional<SurfaceStage> blendStage_; // while a switch of detail or of binding fades
     float blendFrame_ = 0, blendStep_ = 0;
     Programs blendPrograms_;
     std::map<SurfaceStage, gpu::Program> blendCaptures_, blendStarts_;
@@ -178,7 +208,6 @@ private:
     gpu::Buffer uvs_; // TextureVertex, in the buffers' order
     std::map<SurfaceStage, gpu::Program> depthPrograms_, blendDepthPrograms_; // made when first drawn
     gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
-    std::vector<glm::u8vec4> colours_;                                        // of each mesh vertex
     RestBox restBox_;
     std::optional<CutMask> mask_;
 };

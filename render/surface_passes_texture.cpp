@@ -29,9 +29,10 @@ void SurfacePasses::createUvs() {
 }
 
 void SurfacePasses::attachUvs() {
-    for (const SurfaceStage stage :
-         {SurfaceStage::constant, SurfaceStage::corrected, SurfaceStage::undeformed}) {
-        gpu::VertexArray& array = geometry_.at(stage).array;
+    for (auto& [stage, geometry] : geometry_) {
+        if (stage == SurfaceStage::nodes)
+            continue;
+        gpu::VertexArray& array = geometry.array;
         array.attribute(9, uvs_, 2, GL_FLOAT, false, sizeof(TextureVertex), offsetof(TextureVertex, uv));
         array.attribute(10, uvs_, 4, GL_FLOAT, false, sizeof(TextureVertex),
                         offsetof(TextureVertex, tangent));

@@ -9,7 +9,6 @@
 #include "render/picture_target.h"
 #include "render/screen_occlusion.h"
 #include "render/surface_passes.h"
-#include "render/surface_vertices.h"
 #include "render/tool_renderer.h"
 #include "shaders/shared_constants.h"
 #include "sim/pieces.h"
@@ -66,18 +65,6 @@ struct SurfaceRenderer::Impl {
 };
 
 namespace {
-
-SurfaceStage stageOf(sim::Mapping mapping) {
-    switch (mapping) {
-    case sim::Mapping::oneToOne:
-        return SurfaceStage::nodes;
-    case sim::Mapping::triangle:
-        return SurfaceStage::constant;
-    case sim::Mapping::curvature:
-        break;
-    }
-    return SurfaceStage::corrected;
-}
 
 Result<gpu::Program> compileBackdrop(const gpu::ShaderLibrary& library) {
     return gpu::Program::create(library, {"pass.vert", "backdrop.frag"});
@@ -172,6 +159,8 @@ std::vector<float> SurfaceRenderer::blend(std::size_t organ) const {
 void SurfaceRenderer::setBlend(std::size_t organ, sim::Mapping mapping, const std::vector<float>& blend,
                                double finest) {
     DrawnOrgan& drawn = impl_->organs.at(organ);
+    const Status ready = blend.empty() ? Status() : drawn.surface.prepareBlend();
+    SEROSA_CHECK(ready.ok(), "shaders that compiled before");
     drawn.surface.setBlend(stageOf(mapping), blend, float(SRS_BLEND_STEP * finest / drawn.placement.spacing));
 }
 
@@ -321,14 +310,31 @@ Status SurfaceRenderer::restoreCuts(std::size_t organ, const sim::Lattice& latti
     return {};
 }
 
-void SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
-                               const sim::TriangleMesh& metres, const SurfaceBinding& binding,
-                               const sim::TextureLayout& layout,
-                               const std::vector<std::uint32_t>& connections) {
+Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
+                                 const sim::TriangleMesh& metres, const SurfaceBinding& binding,
+                                 const sim::StateTextures& state,
+                                 const std::vector<std::uint32_t>& connections, sim::Mapping mapping,
+                                 bool fades) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;
+    const sim::TextureLayout& layout = state.layout();
     const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
-    surface.show(cutSurface(lattice, metres, binding, connections, sides), lattice, metres, binding,
-                 sim::boundaryLeft(lattice, connections), layout);
+    const CutSurface cut = cutSurface(lattice, metres, binding, connections, sides);
+    std::vector<SurfaceBinding> rebound;
+    for (const sim::Mapping drawn : sim::kSurfaceMappings)
+        if (surface.draws(stageOf(drawn)))
+            rebound.push_back(expressBinding(binding, lattice, metres, drawn, connections));
+    const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
+    impl_->target.bind();
+    if (!fades)
+        return surface.show(cut, lattice, metres, rebound, boundary, layout);
+    const SurfaceStage stage = stageOf(mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : mapping);
+    const gpu::Buffer shown = surface.shown(state, stage);
+    const std::vector<SurfacePasses::Copy> copies = surface.copies();
+    SEROSA_TRY(surface.show(cut, lattice, metres, rebound, boundary, layout));
+    SEROSA_TRY(surface.prepareBlend());
+    surface.startBlend(state, stage, surface.shownAfter(shown, copies), 1, glm::vec3(0),
+                       float(SRS_BLEND_STEP));
+    return {};
 }
 
 void SurfaceRenderer::resize(int width, int height) {
@@ -382,8 +388,11 @@ Status SurfaceRenderer::reload(const gpu::ShaderLibrary& library, const OrganSta
         rehearsal.shapes.push_back(shape);
     }
     rehearsal.threads.emplace_back(); // from a node to itself
-    for (const sim::Mapping mapping :
-         {sim::Mapping::oneToOne, sim::Mapping::triangle, sim::Mapping::curvature})
+    std::vector<sim::Mapping> mappings{sim::Mapping::oneToOne};
+    for (const sim::Mapping mapping : sim::kSurfaceMappings)
+        if (draws(mapping))
+            mappings.push_back(mapping);
+    for (const sim::Mapping mapping : mappings)
         for (const sim::SurfaceColour colour :
              {sim::SurfaceColour::tissue, sim::SurfaceColour::dynamicNormal, sim::SurfaceColour::plain}) {
             rehearsal.look.mapping = mapping;
@@ -421,15 +430,25 @@ std::vector<glm::dvec3> SurfaceRenderer::readDeformedNormals(const sim::StateTex
     return {normals.begin(), normals.end()};
 }
 
-void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage) {
+Result<std::vector<glm::dmat3>> SurfaceRenderer::readAxes(const sim::StateTextures& state,
+                                                          sim::Mapping mapping) {
     impl_->target.bind();
-    impl_->organs[0].surface.drawDiscarded(state, stage == VertexStage::undeformed ? SurfaceStage::undeformed
-                                                  : stage == VertexStage::constant ? SurfaceStage::constant
-                                                                                   : SurfaceStage::corrected);
+    SEROSA_ASSIGN(const std::vector<glm::mat3> axes,
+                  impl_->organs[0].surface.captureAxes(state, stageOf(mapping)));
+    return std::vector<glm::dmat3>(axes.begin(), axes.end());
 }
 
-std::size_t SurfaceRenderer::bytesPerVertex() {
-    return sizeof(MappedVertex);
+void SurfaceRenderer::drawVertexStageOnly(const sim::StateTextures& state,
+                                          std::optional<sim::Mapping> mapping) {
+    impl_->target.bind();
+    impl_->organs[0].surface.drawDiscarded(state, mapping ? stageOf(*mapping) : SurfaceStage::undeformed);
+}
+
+bool SurfaceRenderer::draws(sim::Mapping mapping) const {
+    for (const DrawnOrgan& organ : impl_->organs)
+        if (!organ.surface.draws(stageOf(mapping)))
+            return false;
+    return true;
 }
 
 std::size_t SurfaceRenderer::trianglesDrawn(std::size_t organ) const {

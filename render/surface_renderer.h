@@ -14,6 +14,7 @@
 #include "sim/state_textures.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,24 +35,24 @@ struct View {
 
 struct SurfaceDetail; // render/surface_passes.h
 
-/// Which vertex stage a benchmark runs: undeformed, or through one of the two bases.
-enum class VertexStage { undeformed, constant, corrected };
-
 /// What each organ is drawn from, in the order in which they were added; not null.
 using OrganStates = std::vector<const sim::StateTextures*>;
 
 class SurfaceRenderer {
 public:
     /// Uploads mesh, binding and lattice once. `metres` is the surface in world metres, `binding` made for it
-    /// (either mapping: the other one is expressed over the same triangles). Needs a current context; the
-    /// renderer dies before it. \param detail its texture (render/tissue_texture.h); null: none. Errors:
-    /// shader errors of the driver.
+    /// (of any mapping). It draws one-to-one, triangle, curvature and the binding's own mapping, over the
+    /// same triangles. Needs a current context; the renderer dies before it. \param detail its texture
+    /// (render/tissue_texture.h); null: none. Errors: shader errors of the driver.
     static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                           const SurfaceBinding& binding, const sim::StateTextures& state,
                                           int width, int height, const SurfaceDetail* detail = nullptr);
     SurfaceRenderer(SurfaceRenderer&&) noexcept;
     SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
     ~SurfaceRenderer();
+
+    /// May a look ask for this mapping?
+    bool draws(sim::Mapping mapping) const;
 
     /// One more organ in the same picture; the arguments as for create. Draws from now on take a state more.
     Status addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
@@ -88,12 +89,16 @@ public:
     std::string saveCuts(std::size_t organ) const;
     Status restoreCuts(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
                        std::string_view bytes);
-    /// After cuts: draws from now on what they left of an organ's surface (render/cut_surface.h). The
-    /// arguments are those that the organ was added with; connections: 18 bits a node. Reads the mask's sides
-    /// back.
-    void showCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                  const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                  const std::vector<std::uint32_t>& connections);
+    /// After cuts: draws from now on what they left of an organ's surface (render/cut_surface.h), and binds
+    /// its vertices anew: those that follow a cut node no longer read its normal, which turns towards the
+    /// cut, so that a cut organ at rest is drawn at rest. Lattice, surface and binding are those that the
+    /// organ was added with; connections: 18 bits a node. Reads the mask's sides back. \param fades the
+    /// surface stays where `state` shows it now through `mapping`, and what the new binding differs by fades
+    /// in the frames to come (setBlendFrame), no vertex by more than SRS_BLEND_STEP spacings in one. Errors:
+    /// of the shaders.
+    Status showCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                    const SurfaceBinding& binding, const sim::StateTextures& state,
+                    const std::vector<std::uint32_t>& connections, sim::Mapping mapping, bool fades);
 
     /// Another size of the target, pixels; what was drawn is lost.
     void resize(int width, int height);
@@ -112,16 +117,20 @@ public:
     /// The last drawn frame, sRGB, top row first.
     Image readImage() const;
     /// Deformed vertex positions, m, world, in mesh order, from the same vertex stage (transform feedback),
-    /// for surface files; `mapping` triangle or curvature. `state` is that of the organ of this number.
+    /// for surface files; any mapping that is drawn but one-to-one. `state` is that of the organ of this
+    /// number.
     std::vector<glm::dvec3> readDeformedPositions(const sim::StateTextures& state, sim::Mapping mapping,
                                                   std::size_t organ = 0);
     /// Deformed unit normals, in mesh order, from the same stage.
     std::vector<glm::dvec3> readDeformedNormals(const sim::StateTextures& state, sim::Mapping mapping);
 
+    /// The axes that turn with each vertex (T, N, B of the triangle bases, the lattice's axes of node
+    /// frames), as columns, in mesh order; none of trilinear. Errors: of the shader.
+    Result<std::vector<glm::dmat3>> readAxes(const sim::StateTextures& state, sim::Mapping mapping);
+
     /// For benchmarks: the indexed triangles with GL_RASTERIZER_DISCARD; nothing is drawn.
-    void drawVertexStageOnly(const sim::StateTextures& state, VertexStage stage);
-    /// Bytes of vertex attributes that a mapped vertex takes.
-    static std::size_t bytesPerVertex();
+    /// \param mapping none: the undeformed surface
+    void drawVertexStageOnly(const sim::StateTextures& state, std::optional<sim::Mapping> mapping);
     /// Triangles of an organ's surface that the last picture drew, of it and of its surface's level of
     /// detail; reads back.
     std::size_t trianglesDrawn(std::size_t organ = 0) const;

@@ -1,11 +1,11 @@
 #include "render/surface_vertices.h"
 
-#include "shaders/shared_constants.h"
+#include "shaders/mapping_constants.h"
 #include "sim/packed_normal.h"
-#include "sim/solver.h"
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace serosa::render {
@@ -24,10 +24,10 @@ MappedVertex mappedVertex(const VertexBinding& bound, const sim::TextureLayout& 
     MappedVertex vertex;
     for (int i = 0; i < 3; ++i)
         vertex.texels[i] = texel(layout, bound.nodes[i]);
-    vertex.weights = {std::lround(double(bound.weights.x) * kWeightSteps),
-                      std::lround(double(bound.weights.y) * kWeightSteps)};
+    vertex.weights = {std::lround(double(bound.weights.x) * SRS_WEIGHT_STEPS),
+                      std::lround(double(bound.weights.y) * SRS_WEIGHT_STEPS)};
     vertex.offset = bound.offset;
-    vertex.normal = sim::packNormal(bound.normal) | (bound.basis == SRS_BASIS_CORRECTED ? kCorrectedBit : 0U);
+    vertex.normal = sim::packNormal(bound.normal) | (bound.correctedShare == 1 ? kCorrectedBit : 0U);
     vertex.colour = colour;
     return vertex;
 }
@@ -51,21 +51,6 @@ glm::dvec3 anyTangent(const glm::dvec3& n) {
     return {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
 }
 
-RestBases::RestBases(const sim::Lattice& lattice)
-    : lattice_(lattice), normals_(sim::restState(lattice).normals) {}
-
-TriangleBasis RestBases::of(const VertexBinding& bound) const {
-    const glm::dvec3 p1 = lattice_.restPosition(bound.nodes.x), p2 = lattice_.restPosition(bound.nodes.y),
-                     p3 = lattice_.restPosition(bound.nodes.z);
-    glm::dvec3 normal = triangleNormal(p1, p2, p3);
-    if (bound.basis == SRS_BASIS_CORRECTED) {
-        normal = glm::dvec3(0);
-        for (int i = 0; i < 3; ++i)
-            normal += double(bound.weights[i]) * glm::dvec3(sim::unpackNormal(normals_[bound.nodes[i]]));
-    }
-    return basisAlong(normal, p2 - p1);
-}
-
 RestVertex restVertex(const RestBox& box, const glm::dvec3& lattice, const glm::dvec3& normal,
                       const TriangleBasis& basis, int side) {
     RestVertex vertex;
@@ -79,17 +64,50 @@ RestVertex restVertex(const RestBox& box, const glm::dvec3& lattice, const glm::
     return vertex;
 }
 
-std::vector<RestVertex> restVertices(const sim::Lattice& lattice, const RestBox& box,
-                                     const sim::TriangleMesh& metres, const SurfaceBinding* binding) {
-    const std::vector<glm::dvec3> normals = metres.vertexNormals();
-    const RestBases bases(lattice);
-    const TriangleBasis axes{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    std::vector<RestVertex> vertices;
-    vertices.reserve(normals.size());
-    for (std::size_t v = 0; v < normals.size(); ++v)
-        vertices.push_back(restVertex(box, lattice.toLattice(metres.positions[v]), normals[v],
-                                      binding ? bases.of(binding->vertices[v]) : axes, 0));
+std::vector<ChosenVertex> chosenVertices(const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                         const std::vector<glm::u8vec4>& colours) {
+    std::vector<ChosenVertex> vertices;
+    for (const MappedVertex& mapped : mappedVertices(binding, layout, colours)) {
+        const VertexBinding& bound = binding.vertices[vertices.size()];
+        const glm::dvec4 shares(bound.normalShares, bound.correctedShare);
+        vertices.push_back({mapped, glm::u8vec4(glm::round(shares * SRS_SHARE_STEPS))});
+    }
     return vertices;
+}
+
+std::vector<NormalVertex> normalVertices(const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                         const std::vector<glm::u8vec4>& colours) {
+    std::vector<NormalVertex> vertices;
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
+        const VertexBinding& bound = binding.vertices[v];
+        const NormalOffset& along = binding.alongNormal[v];
+        vertices.push_back(
+            {{texel(layout, bound.nodes.x), texel(layout, bound.nodes.y), texel(layout, bound.nodes.z)},
+             glm::vec2(along.weights),
+             along.distance,
+             sim::packNormal(bound.normal) | (along.corrected ? kCorrectedBit : 0U),
+             colours[v]});
+    }
+    return vertices;
+}
+
+std::vector<CellVertex> cellVertices(const SurfaceBinding& binding, const std::vector<glm::u8vec4>& colours) {
+    std::vector<CellVertex> vertices;
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v)
+        vertices.push_back({binding.cells.vertices[v].cell, binding.cells.vertices[v].at,
+                            sim::packNormal(binding.vertices[v].normal), colours[v]});
+    return vertices;
+}
+
+std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureLayout& layout) {
+    std::vector<glm::uvec4> texels;
+    for (const auto& corners : cells.corners)
+        for (std::size_t half = 0; half < 8; half += 4)
+            texels.emplace_back(texel(layout, corners[half]), texel(layout, corners[half + 1]),
+                                texel(layout, corners[half + 2]), texel(layout, corners[half + 3]));
+    const std::size_t rows = (texels.size() + SRS_TABLE_WIDTH - 1) / SRS_TABLE_WIDTH;
+    texels.resize(std::max<std::size_t>(rows, 1) * SRS_TABLE_WIDTH);
+    return texels;
 }
 
 std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,

@@ -63,9 +63,9 @@ Edges edgesOf(const std::vector<glm::uvec3>& faces) {
 
 class Repair {
 public:
-    Repair(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+    Repair(const ControlNodes& control, const std::vector<glm::uvec3>& faces,
            const std::vector<glm::dvec3>& positions, std::vector<std::uint32_t>& triangles)
-        : lattice_(lattice), positions_(positions), triangles_(triangles), edges_(edgesOf(faces)),
+        : control_(control), positions_(positions), triangles_(triangles), edges_(edgesOf(faces)),
           around_(neighbours()), ofNode_(trianglesOfNodes()) {}
 
     std::size_t tornEdges() const {
@@ -86,7 +86,7 @@ public:
             double bestDistance = 0;
             for (const std::uint32_t w : around_[v])
                 for (int i = 0; i < 3; ++i)
-                    for (const std::uint32_t t : ofNode_[lattice_.boundary[triangles_[w]][i]]) {
+                    for (const std::uint32_t t : ofNode_[control_.triangles[triangles_[w]][i]]) {
                         const double d = distanceTo(v, t);
                         if (d > reach)
                             continue;
@@ -123,14 +123,14 @@ private:
     }
     Adjacency trianglesOfNodes() const {
         Edges pairs;
-        for (std::uint32_t t = 0; t < lattice_.boundary.size(); ++t)
+        for (std::uint32_t t = 0; t < control_.triangles.size(); ++t)
             for (int i = 0; i < 3; ++i)
-                pairs.emplace_back(lattice_.boundary[t][i], t);
-        return {lattice_.nodeCount(), pairs};
+                pairs.emplace_back(control_.triangles[t][i], t);
+        return {control_.count(), pairs};
     }
 
     bool torn(std::uint32_t a, std::uint32_t b) const {
-        const glm::uvec3 &s = lattice_.boundary[triangles_[a]], &t = lattice_.boundary[triangles_[b]];
+        const glm::uvec3 &s = control_.triangles[triangles_[a]], &t = control_.triangles[triangles_[b]];
         for (int i = 0; i < 3; ++i)
             if (s[i] == t.x || s[i] == t.y || s[i] == t.z)
                 return false;
@@ -179,17 +179,16 @@ private:
     }
 
     double distanceTo(std::uint32_t vertex, std::uint32_t triangle) const {
-        const glm::uvec3& t = lattice_.boundary[triangle];
+        const glm::uvec3& t = control_.triangles[triangle];
         const glm::dvec3& p = positions_[vertex];
-        return glm::distance(p, sim::closestPointOnTriangle(p, lattice_.restPosition(t.x),
-                                                            lattice_.restPosition(t.y),
-                                                            lattice_.restPosition(t.z))
-                                    .point);
+        return glm::distance(
+            p,
+            sim::closestPointOnTriangle(p, control_.rest[t.x], control_.rest[t.y], control_.rest[t.z]).point);
     }
 
     /// The closest triangle around the nodes of the triangle of `from`; kNone if it lies too far out.
     std::uint32_t closestAround(std::uint32_t vertex, std::uint32_t from) const {
-        const glm::uvec3& nodes = lattice_.boundary[triangles_[from]];
+        const glm::uvec3& nodes = control_.triangles[triangles_[from]];
         std::uint32_t best = kNone;
         double bestDistance = distanceTo(vertex, triangles_[vertex]) + kRepairReach;
         for (int i = 0; i < 3; ++i)
@@ -238,7 +237,7 @@ private:
 
     enum class State : std::uint8_t { outside, waiting, bound };
 
-    const sim::Lattice& lattice_;
+    const ControlNodes& control_;
     const std::vector<glm::dvec3>& positions_;
     std::vector<std::uint32_t>& triangles_;
     Edges edges_;
@@ -269,11 +268,12 @@ std::vector<glm::dvec3> smoothed(const std::vector<glm::uvec3>& faces,
 
 } // namespace
 
-int diagonalStart(const sim::Lattice& lattice, const glm::uvec3& nodes) {
-    int start = 0, longest = 0;
+int diagonalStart(const ControlNodes& control, const glm::uvec3& nodes) {
+    int start = 0;
+    double longest = 0;
     for (int i = 0; i < 3; ++i) {
-        const glm::ivec3 edge = lattice.nodes[nodes[(i + 1) % 3]] - lattice.nodes[nodes[i]];
-        const int length2 = edge.x * edge.x + edge.y * edge.y + edge.z * edge.z;
+        const glm::dvec3 edge = control.rest[nodes[(i + 1) % 3]] - control.rest[nodes[i]];
+        const double length2 = glm::dot(edge, edge);
         if (length2 > longest) {
             longest = length2;
             start = i;
@@ -282,10 +282,10 @@ int diagonalStart(const sim::Lattice& lattice, const glm::uvec3& nodes) {
     return start;
 }
 
-void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+void repairTornEdges(const ControlNodes& control, const std::vector<glm::uvec3>& faces,
                      const std::vector<glm::dvec3>& positions, TriangleChoice& choice) {
     const std::vector<std::uint32_t> before = choice.triangles;
-    Repair repair(lattice, faces, positions, choice.triangles);
+    Repair repair(control, faces, positions, choice.triangles);
     choice.tornEdgesLeft = choice.tornEdgesFound = repair.tornEdges();
     for (int pass = 0; pass < kPasses && choice.tornEdgesLeft > 0; ++pass) {
         const bool single = repair.sweep();
@@ -295,23 +295,20 @@ void repairTornEdges(const sim::Lattice& lattice, const std::vector<glm::uvec3>&
     }
     for (std::size_t v = 0; v < positions.size(); ++v)
         if (choice.triangles[v] != before[v]) {
-            const glm::uvec3& t = lattice.boundary[choice.triangles[v]];
-            choice.weights[v] =
-                sim::closestPointOnTriangle(positions[v], lattice.restPosition(t.x),
-                                            lattice.restPosition(t.y), lattice.restPosition(t.z))
-                    .weights;
+            const glm::uvec3& t = control.triangles[choice.triangles[v]];
+            choice.weights[v] = sim::closestPointOnTriangle(positions[v], control.rest[t.x],
+                                                            control.rest[t.y], control.rest[t.z])
+                                    .weights;
         }
 }
 
-TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
+TriangleChoice chooseTriangles(const ControlNodes& control, const std::vector<glm::uvec3>& faces,
                                const std::vector<glm::dvec3>& positions,
                                const std::vector<glm::dvec3>& normals) {
-    std::vector<glm::dvec3> nodes(lattice.nodeCount());
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        nodes[i] = lattice.restPosition(i);
-    const sim::TriangleTree tree(nodes, lattice.boundary);
+    const std::vector<glm::dvec3>& nodes = control.rest;
+    const sim::TriangleTree tree(nodes, control.triangles);
     std::vector<glm::dvec3> facing;
-    for (const glm::uvec3& t : lattice.boundary)
+    for (const glm::uvec3& t : control.triangles)
         facing.push_back(glm::normalize(glm::cross(nodes[t.y] - nodes[t.x], nodes[t.z] - nodes[t.x])));
     const std::vector<glm::dvec3> outward = smoothed(faces, positions, normals);
 
@@ -335,7 +332,7 @@ TriangleChoice chooseTriangles(const sim::Lattice& lattice, const std::vector<gl
             choice.weights[v] = closest.weights;
         }
     });
-    repairTornEdges(lattice, faces, positions, choice);
+    repairTornEdges(control, faces, positions, choice);
     return choice;
 }
 

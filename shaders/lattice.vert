@@ -1,7 +1,7 @@
 #version 450 core
 // The lattice over or instead of the surface (MS05 figures 1 and 2): a spring is a strip, a node a square of constant width in
 // pixels, one instance each, drawn a little nearer to the eye so that the surface it lies on does not swallow it.
-#include "mapping.glsl"
+#include "node_texel.glsl"
 
 layout(location = 0) in uvec2 a_ends; // node texels, y << 16 | x; bit 31 of the first: a diagonal. Nodes: both the same
 

@@ -1,26 +1,23 @@
 #version 450 core
-// The detailed surface: undeformed (SURFACE_STATIC), through the triangle basis or the curvature-corrected one (MS05 3.3), or
-// the lattice's own boundary with one vertex a node (SURFACE_NODES, MS05 3.2). Lattice units; axes are the world's.
+// The detailed surface: undeformed (SURFACE_STATIC), through a mapping (mapping.glsl), or the lattice's own boundary with one
+// vertex a node (SURFACE_NODES, MS05 3.2). Lattice units; axes are the world's.
 #include "packed_normal.glsl"
-#ifndef SURFACE_STATIC
+#ifdef SURFACE_NODES
+#include "node_texel.glsl"
+layout(location = 0) in uint a_texel; // y << 16 | x
+uniform vec4 u_colour;                // as a_colour
+#else
+#ifdef SURFACE_STATIC
+layout(location = 2) in vec3 a_offset; // the position
+layout(location = 3) in uint a_normal; // packed
+#else
 #include "mapping.glsl"
 #endif
-
-#ifdef SURFACE_NODES
-layout(location = 0) in uint a_texel;
-uniform vec4 u_colour; // as a_colour
-#else
-#ifndef SURFACE_STATIC
-layout(location = 0) in uvec3 a_texels; // y << 16 | x
-layout(location = 1) in vec2 a_weights; // w1, w2
-#endif
-layout(location = 2) in vec3 a_offset;  // in the basis; SURFACE_STATIC: the position
-layout(location = 3) in uint a_normal;  // packed, in the basis; bit 30: the basis is the corrected one
-layout(location = 4) in vec4 a_colour;  // square root of the linear colour; ambient light that arrives
+layout(location = 4) in vec4 a_colour; // square root of the linear colour; ambient light that arrives
 #endif
 
-#ifdef SURFACE_BLEND // after a switch of level of detail (lod_blend.vert)
-layout(location = 5) in vec3 a_blendOffset; // in the basis: what is missing to where the other level drew the vertex
+#ifdef SURFACE_BLEND // after a switch of level of detail or of binding (lod_blend.vert)
+layout(location = 5) in vec3 a_blendOffset; // in the axes: what is missing to where the vertex was drawn before
 layout(location = 6) in vec3 a_blendNormal;
 uniform float u_blendFrames; // since the switch
 uniform float u_blendStep;   // lattice units that it may move the vertex a frame
@@ -53,7 +50,7 @@ uniform vec4 u_section; // plane, lattice units: drawn where it is positive, if 
 
 out vec3 v_position;      // lattice units
 out vec3 v_normal;        // of the surface
-out vec3 v_dynamicNormal; // of the basis
+out vec3 v_dynamicNormal; // of the nodes
 out vec4 v_colour;        // linear; ambient light that arrives
 
 void main() {
@@ -69,17 +66,16 @@ void main() {
     v_dynamicNormal = v_normal;
     v_colour = u_colour;
 #else
-    vec3 offset = a_offset, normal = unpackNormal(a_normal);
+    Mapped mapped = mapVertex();
+    v_position = mapped.position;
+    v_normal = mapped.normal;
 #ifdef SURFACE_BLEND
     float rate = u_blendStep / max(length(a_blendOffset), 1e-6);
     float left = max(1.0 - u_blendFrames * clamp(rate, 1.0 / SRS_BLEND_MOST_FRAMES, 1.0 / SRS_BLEND_FRAMES), 0.0);
-    offset += left * a_blendOffset;
-    normal += left * a_blendNormal;
+    v_position += mapped.axes * (left * a_blendOffset);
+    v_normal += mapped.axes * (left * a_blendNormal);
 #endif
-    Mapped mapped = mapVertex(a_texels, a_weights, offset, (a_normal & 0x40000000u) != 0u);
-    v_position = mapped.position;
-    v_normal = normal.x * mapped.t + normal.y * mapped.n + normal.z * mapped.b;
-    v_dynamicNormal = mapped.n;
+    v_dynamicNormal = mapped.dynamicNormal;
     v_colour = a_colour;
 #endif
     v_colour.rgb *= v_colour.rgb;
@@ -90,7 +86,7 @@ void main() {
 #ifdef SURFACE_STATIC
     vec3 t = frame;
 #else
-    vec3 t = frame.x * mapped.t + frame.y * mapped.n + frame.z * mapped.b;
+    vec3 t = mapped.turn * frame;
 #endif
     vec3 n = normalize(v_normal);
     t = normalize(t - n * dot(n, t));

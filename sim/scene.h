@@ -108,7 +108,11 @@ struct Light {
     double ambient = 1;
 };
 
-enum class Mapping { oneToOne, triangle, curvature };
+/// How a surface follows its nodes (docs/methods/mappings.md), in the order of the scene's words.
+enum class Mapping { oneToOne, triangle, curvature, chosen, normalOffset, trilinear, nodeFrames };
+inline constexpr Mapping kSurfaceMappings[] = {Mapping::triangle,  Mapping::curvature,
+                                               Mapping::chosen,    Mapping::normalOffset,
+                                               Mapping::trilinear, Mapping::nodeFrames};
 enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 struct Look {
     Mapping mapping = Mapping::curvature;

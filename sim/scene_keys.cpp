@@ -357,8 +357,9 @@ std::vector<SceneKey> otherKeys() {
         plain("light", "intensity", Kind::number, {0, 100}, "1", "of the direct light"),
         plain("light", "ambient", Kind::number, {0, 100}, "1", "of the light from all around"),
 
-        word("look", "mapping", {"one-to-one", "triangle", "curvature"}, "\"curvature\"",
-             "how the surface follows the lattice (MS05 3.2, 3.3)"),
+        word("look", "mapping",
+             {"one-to-one", "triangle", "curvature", "chosen", "normal-offset", "trilinear", "node-frames"},
+             "\"curvature\"", "how the surface follows the lattice (docs/methods/mappings.md)"),
         word("look", "colour", {"tissue", "dynamic-normal", "material", "plain"}, "\"tissue\"",
              "what the surface is coloured by; material: by the material of the cell at each vertex; plain: "
              "its own "

@@ -157,6 +157,8 @@ const std::vector<VerifyGroup>& verifyGroups() {
         {"lod", "switches of detail in motion, and the tree that answers picking and candidates", true,
          verifyLod},
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
+        {"surface", "MS05's figures as numbers, exactness on random surfaces, normals: every mapping", true,
+         verifySurface},
     };
     return groups;
 }

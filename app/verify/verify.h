@@ -78,6 +78,7 @@ const std::vector<VerifyGroup>& verifyGroups();
 
 Status verifySolver(const VerifyOptions& options, CheckList& checks);    // app/verify/solver.cpp
 Status verifyMapping(const VerifyOptions& options, CheckList& checks);   // app/verify/mapping.cpp
+Status verifySurface(const VerifyOptions& options, CheckList& checks);   // app/verify/surface_cases.cpp
 Status verifyMaterials(const VerifyOptions& options, CheckList& checks); // app/verify/materials.cpp
 Status verifyFem(const VerifyOptions& options, CheckList& checks);       // app/verify/fem.cpp
 Status verifyCuts(const VerifyOptions& options, CheckList& checks);      // app/verify/cuts.cpp

@@ -218,6 +218,9 @@ TEST_F(ViewInputTest, KeysSetTheSwitches) {
     EXPECT_EQ(controls.look.mapping, sim::Mapping::triangle);
     key('3');
     EXPECT_EQ(controls.look.mapping, sim::Mapping::curvature);
+    controls.sceneMapping = sim::Mapping::nodeFrames;
+    key('4');
+    EXPECT_EQ(controls.look.mapping, sim::Mapping::nodeFrames);
     for (const auto& [code, isOn] :
          std::vector<std::pair<int, const bool*>>{{'r', &controls.restart},
                                                   {'l', &controls.look.lattice},

@@ -72,6 +72,17 @@ TEST(GlVerify, StaleNormalFailsTheMappingGroup) {
     EXPECT_NE(page.all("div", "verdict").at(0)->text.find("--inject stale-normal"), std::string::npos);
 }
 
+TEST(GlVerify, SurfacePassesAndStaleNormalsFailIt) {
+    if (!isLongRun())
+        GTEST_SKIP() << "runs on EGL, without sanitizers";
+    const TestFolder folder;
+    const ChildResult result = runSerosa(folder.path(), {"verify", "surface", "--gl", glChoice()});
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+    EXPECT_EQ(runSerosa(folder.path(), {"verify", "surface", "--gl", glChoice(), "--inject", "stale-normal"})
+                  .exitCode,
+              1);
+}
+
 TEST(GlVerify, SpringFaultsFailTheGroupsThatOwnThem) {
     if (!isLongRun())
         GTEST_SKIP() << "runs on EGL, without sanitizers";

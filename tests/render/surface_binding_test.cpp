@@ -2,7 +2,6 @@
 #include "render/mapping_measures.h"
 #include "render/surface_binding.h"
 #include "render/triangle_choice.h"
-#include "shaders/shared_constants.h"
 #include "sim/solver.h"
 #include "tests/render/shapes.h"
 
@@ -58,7 +57,7 @@ TEST(SurfaceBinding, WeightsAreOfTheClosestKindAndSumToOne) {
     for (std::size_t v = 0; v < bound.binding.vertices.size(); ++v) {
         const VertexBinding& vertex = bound.binding.vertices[v];
         const glm::uvec3& triangle = bound.lattice.boundary[bound.binding.triangles[v]];
-        const int first = diagonalStart(bound.lattice, triangle);
+        const int first = diagonalStart(controlNodes(bound.lattice), triangle);
         EXPECT_EQ(vertex.nodes,
                   glm::uvec3(triangle[first], triangle[(first + 1) % 3], triangle[(first + 2) % 3]));
         EXPECT_NEAR(glm::distance(bound.lattice.restPosition(vertex.nodes.x),
@@ -82,7 +81,7 @@ TEST(SurfaceBinding, StraightUpOffsetFollowsTheNormalByHand) {
     mesh.faces = {{0, 2, 1}};
     const SurfaceBinding binding = bindSurface(lattice, mesh, sim::Mapping::triangle);
     EXPECT_NEAR(binding.vertices[0].offset.y, 0.25, 1e-6);
-    EXPECT_EQ(binding.vertices[0].basis, SRS_BASIS_CONSTANT);
+    EXPECT_EQ(binding.vertices[0].correctedShare, 0);
     const auto turn = [](const glm::dvec3& q) { return glm::dvec3(q.x, -q.z, q.y); };
     const sim::LatticeState state = deformedState(lattice, turn);
     const glm::dvec3 moved = mapSurface(binding, state.positions, state.normals)[0];
@@ -99,9 +98,9 @@ TEST(SurfaceBinding, ConstantBasisWhereANodeHasNoNormal) {
         for (int i = 0; i < 3; ++i)
             defined = defined && glm::length(sums[vertex.nodes[i]]) >= 0.5;
         if (!defined) {
-            EXPECT_EQ(vertex.basis, SRS_BASIS_CONSTANT);
+            EXPECT_EQ(vertex.correctedShare, 0);
         }
-        constant += vertex.basis == SRS_BASIS_CONSTANT;
+        constant += vertex.correctedShare == 0;
     }
     EXPECT_EQ(bound.binding.constantVertices, constant);
     EXPECT_GT(constant, 0U);
@@ -114,7 +113,7 @@ TEST(SurfaceBinding, ExpressingAnewGivesTheSameAsBinding) {
         expressBinding(corrected.binding, corrected.lattice, corrected.mesh, sim::Mapping::triangle);
     for (std::size_t v = 0; v < other.vertices.size(); ++v) {
         EXPECT_EQ(other.vertices[v].offset, constant.binding.vertices[v].offset);
-        EXPECT_EQ(other.vertices[v].basis, SRS_BASIS_CONSTANT);
+        EXPECT_EQ(other.vertices[v].correctedShare, 0);
     }
 }
 
@@ -145,6 +144,39 @@ TEST(SurfaceBinding, ThinWallBindsToItsOwnSide) {
             ASSERT_EQ(lattice.restPosition(vertex.nodes[k]).y, topSide);
 }
 
+TEST(CheckBinding, SaysWhatCannotBeFollowed) {
+    const sim::Lattice lattice = test::boxLattice(3, 3, 3, kSpacing, kOrigin);
+    sim::TriangleMesh mesh = test::ballMesh(6, kSpacing, lattice.toWorld(glm::dvec3(0.1)));
+    const ControlNodes nodes = controlNodes(lattice);
+    EXPECT_TRUE(checkBinding(nodes, mesh).ok());
+    ControlNodes bare = nodes;
+    bare.triangles.clear();
+    EXPECT_NE(checkBinding(bare, mesh).error().message.find("no triangles"), std::string::npos);
+    mesh.positions[17] += glm::dvec3(10 * kSpacing, 0, 0);
+    const Status far = checkBinding(nodes, mesh);
+    ASSERT_FALSE(far.ok());
+    EXPECT_NE(far.error().message.find("vertex 17 "), std::string::npos) << far.error().message;
+    EXPECT_NE(far.error().message.find(" mm from the nearest triangle"), std::string::npos);
+    mesh.positions[17].x = std::nan("");
+    EXPECT_FALSE(checkBinding(nodes, mesh).ok());
+    mesh.faces.clear();
+    EXPECT_NE(checkBinding(nodes, mesh).error().message.find("no faces"), std::string::npos);
+}
+
+TEST(ControlNodes, OfALatticeBindAsTheLatticeDoes) {
+    const Bound bound = ball(sim::Mapping::curvature);
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature, sim::Mapping::chosen,
+                               sim::Mapping::normalOffset, sim::Mapping::nodeFrames}) {
+        const SurfaceBinding one = bindSurface(bound.lattice, bound.mesh, mapping),
+                             other = bindSurface(controlNodes(bound.lattice), bound.mesh, mapping);
+        const sim::LatticeState bent =
+            deformedState(bound.lattice, [](const glm::dvec3& q) { return bend(q, {}, 20); });
+        EXPECT_LE(largestDistance(mapSurface(one, bent.positions, bent.normals),
+                                  mapSurface(other, bent.positions, bent.normals)),
+                  1e-6);
+    }
+}
+
 TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
     const sim::Lattice lattice = test::boxLattice(8, 1, 8, 1.0, glm::dvec3(0));
     std::vector<glm::dvec3> positions;
@@ -159,11 +191,11 @@ TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
             faces.emplace_back(a, a + 1, b);
             faces.emplace_back(a + 1, b + 1, b);
         }
-    TriangleChoice good =
-        chooseTriangles(lattice, faces, positions, std::vector<glm::dvec3>(positions.size(), {0, 1, 0}));
+    TriangleChoice good = chooseTriangles(controlNodes(lattice), faces, positions,
+                                          std::vector<glm::dvec3>(positions.size(), {0, 1, 0}));
     ASSERT_EQ(good.tornEdgesLeft, 0U);
-    TriangleChoice below =
-        chooseTriangles(lattice, faces, positions, std::vector<glm::dvec3>(positions.size(), {0, -1, 0}));
+    TriangleChoice below = chooseTriangles(controlNodes(lattice), faces, positions,
+                                           std::vector<glm::dvec3>(positions.size(), {0, -1, 0}));
 
     TriangleChoice choice = good;
     std::size_t wrong = 0;
@@ -174,7 +206,7 @@ TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {
             ++wrong;
         }
     ASSERT_GT(wrong, 50U);
-    repairTornEdges(lattice, faces, positions, choice);
+    repairTornEdges(controlNodes(lattice), faces, positions, choice);
     EXPECT_GT(choice.tornEdgesFound, 30U); // the patch's rim
     EXPECT_EQ(choice.tornEdgesLeft, 0U);
     const double top = 1 - lattice.centre.y;
