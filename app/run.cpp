@@ -21,6 +21,9 @@
 #include "sim/mesh_writer.h"
 #include "sim/quantity.h"
 
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtx/rotate_vector.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -151,15 +154,19 @@ public:
         std::vector<render::Image> tiles;
         std::vector<std::string> captions;
         const render::CameraView camera = camera_;
+        const glm::dvec3 light = parts_.scene.light.direction;
         for (int i = 0; i < views; ++i) {
             const double share = double(i) / views;
             camera_ = render::carriedAround(camera, 0.5 * (parts_.lowest() + parts_.highest()),
                                             2 * std::numbers::pi * share);
-            drawScene(player_.frame());
+            parts_.scene.light.direction =
+                glm::rotate(light, 2 * std::numbers::pi * share, glm::dvec3(0, 1, 0));
+            drawScene(player_.frame()); // the organs turn, not the room
             tiles.push_back(render::shrink(parts_.renderer->readImage(), kTileWidth));
             captions.push_back(std::to_string(std::lround(360 * share)) + " deg");
         }
         camera_ = camera;
+        parts_.scene.light.direction = light;
         const render::Image sheet = render::contactSheet(tiles, captions, parts_.scene.output.sheetColumns);
         return render::writePng(sheet, folder_.file("turntable.png"));
     }

@@ -112,6 +112,21 @@ bool liesOn(const VertexBinding& vertex, const std::vector<std::uint32_t>& conne
     return true;
 }
 
+/// Are all nodes of a vertex still held, and no spring between two of them cut?
+bool isHeld(const sim::Lattice& lattice, const VertexBinding& vertex,
+            const std::vector<std::uint32_t>& connections) {
+    for (int i = 0; i < 3; ++i) {
+        const std::uint32_t a = vertex.nodes[i], b = vertex.nodes[(i + 1) % 3];
+        const glm::ivec3 offset = lattice.nodes[b] - lattice.nodes[a];
+        if (connections[a] == 0)
+            return false;
+        for (std::size_t d = 0; d < sim::kNeighbourOffsets.size(); ++d)
+            if (sim::kNeighbourOffsets[d] == offset && ((lattice.connections[a] & ~connections[a]) >> d & 1U))
+                return false;
+    }
+    return true;
+}
+
 } // namespace
 
 CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
@@ -136,7 +151,10 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
         const auto [found, fresh] = copyOf.try_emplace({v, side}, -1);
         if (!fresh)
             return found->second;
-        if (liesOn(binding.vertices[v], connections, sides, side)) {
+        const VertexBinding& own = binding.vertices[v];
+        // Beside faces that are drawn whole a vertex stays as it is, unless it belongs to the other side.
+        if (liesOn(own, connections, sides, side) ||
+            (near[v] != 7 && isHeld(lattice, own, connections) && !liesOn(own, connections, sides, -side))) {
             found->second = std::int64_t(surface.vertices.size());
             surface.vertices.push_back({v, side, {}});
             return found->second;

@@ -83,7 +83,7 @@ Sample liverCapsule(const glm::dvec2& at, double tile) {
     const double edge = step(0.0, 0.35, lobule.next - lobule.nearest);
     const double grain = gradientNoise(at * glm::dvec2(n * 4), n * 4, 34);
     Sample s;
-    s.height = 0.35 * edge + 0.45 * (0.5 + 0.5 * mottle) + 0.1 * grain;
+    s.height = 0.2 + 0.10 * edge + 0.5 * (0.5 + 0.5 * mottle) + 0.08 * grain;
     s.albedo = glm::mix(glm::dvec3(0.165, 0.034, 0.024), glm::dvec3(0.245, 0.062, 0.042), 0.5 + 0.6 * mottle);
     s.albedo *= glm::mix(1.25, 0.97, edge) * (1 + 0.06 * grain) * (0.95 + 0.1 * unitOf(lobule.id));
     s.roughness = 0.26 + 0.06 * (1 - edge);

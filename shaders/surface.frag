@@ -32,9 +32,9 @@ uniform vec4 u_section; // plane, lattice units; 0: none
 out vec4 o_colour;
 
 const vec3 kInnerColour = vec3(0.36, 0.045, 0.035); // flesh, seen through a cut
-const float kInnerOpen = 0.45;                      // of the surround, in there
+const float kInnerOpen = 0.6;                       // of the surround, in there
 const vec3 kCutColour = vec3(0.42, 0.085, 0.07);    // flesh, evenly lit: one plane
-const vec3 kBlood = vec3(0.150, 0.0060, 0.0045);
+const vec3 kBlood = vec3(0.090, 0.0040, 0.0030);
 
 #ifdef SURFACE_CUT
 /// 0..1: how much blood lies here, in a film that ends unevenly.
@@ -74,7 +74,8 @@ void main() {
     tissue.position = v_position;
     tissue.albedo = gl_FrontFacing ? v_colour.rgb : kInnerColour;
     tissue.open = gl_FrontFacing ? v_colour.a : kInnerOpen;
-    tissue.normal = n;
+    tissue.inside = !gl_FrontFacing;
+    tissue.normal = tissue.inside ? normalize(n + 0.8 * v) : n; // and is as much scattered as reflected
     tissue.film = n;
     tissue.roughness = 0.36;
 #ifdef SURFACE_TEXTURED
@@ -85,15 +86,13 @@ void main() {
 #else
     Detail detail = detailOf(v_rest, restNormal, restView);
 #endif
-    if (gl_FrontFacing) {
-        tissue.albedo *= detail.albedo;
-        tissue.open *= detail.open;
-        tissue.normal = normalize(turn * detail.normal);
-        tissue.film = normalize(n + 0.7 * tissue.normal); // the film fills the relief
-        tissue.roughness = detail.roughness;
-    }
+    tissue.albedo *= detail.albedo;
+    tissue.open *= detail.open;
+    tissue.normal = normalize(turn * detail.normal + (tissue.normal - n));
+    tissue.film = normalize(n + 0.7 * tissue.normal); // the film fills the relief
+    tissue.roughness = detail.roughness;
 #endif
-    tissue.albedo = mix(tissue.albedo, kBlood, 0.8 * tissue.blood);
+    tissue.albedo = mix(tissue.albedo, kBlood, (gl_FrontFacing ? 0.75 : 0.45) * tissue.blood);
     o_colour = vec4(tissueLight(tissue, v), 1.0);
 #endif
 }
