@@ -223,17 +223,16 @@ Status SurfacePasses::createMapped(const SurfaceBinding& binding, const sim::Tex
 }
 
 Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+                                     const std::vector<SurfaceBinding>& bindings,
+                                     const sim::TextureLayout& layout) {
     const CacheOrder order = cacheOrder(metres);
     newIndex_ = order.newIndex;
     indices_ = gpu::Buffer("surface indices", std::span<const std::uint32_t>(order.indices));
     indexCount_ = int(order.indices.size());
     colours_ = vertexColours(metres);
 
-    SEROSA_TRY(createMapped(binding, layout));
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
-        if (mapping != binding.mapping)
-            SEROSA_TRY(createMapped(expressBinding(binding, lattice, metres, mapping), layout));
+    for (const SurfaceBinding& binding : bindings)
+        SEROSA_TRY(createMapped(binding, layout));
 
     const auto still = inNewOrder(staticVertices(lattice, metres, colours_), newIndex_);
     Geometry& geometry = geometry_[SurfaceStage::undeformed];
@@ -305,12 +304,15 @@ Status SurfacePasses::rebind(const std::vector<SurfaceBinding>& bindings, const 
 }
 
 Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                            const SurfaceBinding& binding, const sim::TextureLayout& layout) {
-    SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
+                                            const std::vector<SurfaceBinding>& bindings,
+                                            const sim::TextureLayout& layout) {
     SurfacePasses passes;
-    const bool corrected = binding.mapping == sim::Mapping::curvature;
-    passes.anyConstant_ = !corrected || binding.constantVertices > 0;
-    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
+    for (const SurfaceBinding& binding : bindings) {
+        SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
+        passes.anyConstant_ = passes.anyConstant_ ||
+                              (binding.mapping == sim::Mapping::curvature && binding.constantVertices > 0);
+    }
+    SEROSA_TRY(passes.createGeometry(lattice, metres, bindings, layout));
     SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
     SEROSA_TRY(passes.createCaptures());
     return passes;

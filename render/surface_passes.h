@@ -24,9 +24,10 @@ inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behi
 
 class SurfacePasses {
 public:
-    /// Ready to draw both bases of MS05, the binding's own mapping, the undeformed twin and the boundary.
+    /// Ready to draw the mappings of the bindings, the undeformed twin and the boundary.
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
+                                        const std::vector<SurfaceBinding>& bindings,
+                                        const sim::TextureLayout& layout);
     bool draws(SurfaceStage stage) const { return geometry_.count(stage) > 0; }
 
     using Programs = std::map<std::pair<SurfaceStage, sim::SurfaceColour>, gpu::Program>;
@@ -86,7 +87,7 @@ private:
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
     std::vector<SurfaceStage> mappedStages() const;
     Status createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                          const SurfaceBinding& binding, const sim::TextureLayout& layout);
+                          const std::vector<SurfaceBinding>& bindings, const sim::TextureLayout& layout);
     Status createMapped(const SurfaceBinding& binding, const sim::TextureLayout& layout);
     void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,

@@ -23,8 +23,9 @@ struct DrawnOrgan {
     LatticeOverlay lattice;
 
     static Result<DrawnOrgan> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
-        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, layout));
+                                     const std::vector<SurfaceBinding>& bindings,
+                                     const sim::TextureLayout& layout) {
+        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, bindings, layout));
         SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, layout));
         sim::Lattice placement;
         placement.spacing = lattice.spacing;
@@ -32,6 +33,16 @@ struct DrawnOrgan {
         return DrawnOrgan{std::move(placement), std::move(surface), std::move(overlay)};
     }
 };
+
+/// The binding, and MS05's two bases over the same triangles.
+std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                                          const sim::TriangleMesh& metres) {
+    std::vector<SurfaceBinding> bindings{binding};
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
+        if (mapping != binding.mapping)
+            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
+    return bindings;
+}
 
 } // namespace
 
@@ -63,7 +74,20 @@ SurfaceRenderer::~SurfaceRenderer() = default;
 Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                                 const SurfaceBinding& binding,
                                                 const sim::StateTextures& state, int width, int height) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+    return create(lattice, metres, withBothBases(binding, lattice, metres), state.layout(), width, height);
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const ControlNodes& nodes, const sim::TriangleMesh& metres,
+                                                const SurfaceBinding& binding,
+                                                const sim::StateTextures& state, int width, int height) {
+    return create(standInLattice(nodes), metres, std::vector<SurfaceBinding>{binding}, state.layout(), width,
+                  height);
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                                const std::vector<SurfaceBinding>& bindings,
+                                                const sim::TextureLayout& layout, int width, int height) {
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, bindings, layout));
     SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
     SEROSA_ASSIGN(ThreadRenderer threads, ThreadRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
@@ -81,7 +105,9 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
 
 Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                  const SurfaceBinding& binding, const sim::StateTextures& state) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+    SEROSA_ASSIGN(
+        DrawnOrgan organ,
+        DrawnOrgan::create(lattice, metres, withBothBases(binding, lattice, metres), state.layout()));
     impl_->organs.push_back(std::move(organ));
     return {};
 }
@@ -89,7 +115,9 @@ Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::Triangl
 Status SurfaceRenderer::addLevel(std::size_t organ, const sim::Lattice& lattice,
                                  const sim::TriangleMesh& metres, const SurfaceBinding& binding,
                                  const sim::StateTextures& state) {
-    SEROSA_ASSIGN(DrawnOrgan drawn, DrawnOrgan::create(lattice, metres, binding, state.layout()));
+    SEROSA_ASSIGN(
+        DrawnOrgan drawn,
+        DrawnOrgan::create(lattice, metres, withBothBases(binding, lattice, metres), state.layout()));
     SEROSA_TRY(drawn.surface.prepareBlend());
     SEROSA_TRY(impl_->organs.at(organ).surface.prepareBlend());
     impl_->levels.resize(impl_->organs.size());
