@@ -219,12 +219,17 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
                                  bool fades) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;
     const sim::TextureLayout& layout = state.layout();
-    surface.show(metres.faces, facesLeft(lattice, metres.faces, binding, connections),
-                 sim::boundaryLeft(lattice, connections), layout);
     std::vector<SurfaceBinding> rebound;
+    const SurfaceBinding* ofFaces = nullptr;
     for (const sim::Mapping drawn : sim::kSurfaceMappings)
         if (surface.draws(stageOf(drawn)))
             rebound.push_back(expressBinding(binding, lattice, metres, drawn, connections));
+    for (const SurfaceBinding& candidate : rebound)
+        if (candidate.mapping == binding.mapping)
+            ofFaces = &candidate;
+    SEROSA_CHECK(ofFaces, "the binding that the organ was added with");
+    surface.show(metres.faces, facesLeft(lattice, metres.faces, *ofFaces, connections),
+                 sim::boundaryLeft(lattice, connections), layout);
     impl_->target.bind();
     if (!fades)
         return surface.rebind(rebound, layout);

@@ -2,6 +2,7 @@
 #include "render/cut_faces.h"
 #include "sim/blade.h"
 #include "sim/pieces.h"
+#include "sim/solver.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,8 @@ struct CutEllipsoid {
     render::SurfaceBinding binding;
     std::vector<std::uint32_t> connections;
 
-    explicit CutEllipsoid(double lowestY) {
-        mesh = test::ballMesh(1, 4);
+    explicit CutEllipsoid(double lowestY, int subdivisions = 4) {
+        mesh = test::ballMesh(1, subdivisions);
         for (glm::dvec3& p : mesh.positions)
             p *= glm::dvec3(0.018, 0.006, 0.006);
         sim::LatticeRequest request;
@@ -48,6 +49,38 @@ TEST(CutFacesDrawn, allFacesWhereNothingIsCut) {
         render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
     EXPECT_EQ(std::count(left.begin(), left.end(), false), 0);
     EXPECT_EQ(sim::boundaryLeft(body.lattice, body.connections), body.lattice.boundary);
+}
+
+TEST(CutFacesDrawn, VerticesFollowTheirOwnSideAndNoFaceIsStretched) {
+    const CutEllipsoid body(-0.02, 5); // all through
+    const sim::LatticeState rest = sim::restState(body.lattice);
+    std::vector<glm::dvec3> apart = rest.positions;
+    for (glm::dvec3& p : apart) // both halves go their way
+        p.x += body.lattice.toWorld(p).x > 0.0004 ? 2.5 : -2.5;
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::nodeFrames}) {
+        const render::SurfaceBinding whole =
+            render::expressBinding(body.binding, body.lattice, body.mesh, mapping);
+        const render::SurfaceBinding rebound =
+            render::expressBinding(whole, body.lattice, body.mesh, mapping, body.connections);
+        const auto dropped = [&](const render::SurfaceBinding& binding) {
+            const std::vector<bool> left =
+                render::facesLeft(body.lattice, body.mesh.faces, binding, body.connections);
+            return std::count(left.begin(), left.end(), false);
+        };
+        EXPECT_GT(dropped(rebound), 0);
+        EXPECT_LT(double(dropped(rebound)), 0.6 * double(dropped(whole)));
+        const auto atRest = render::mapSurface(rebound, rest.positions, rest.normals);
+        const auto moved = render::mapSurface(rebound, apart, rest.normals);
+        const std::vector<bool> left =
+            render::facesLeft(body.lattice, body.mesh.faces, rebound, body.connections);
+        for (std::size_t v = 0; v < atRest.size(); ++v)
+            ASSERT_LE(glm::distance(atRest[v], body.lattice.toLattice(body.mesh.positions[v])), 1e-5);
+        for (std::size_t f = 0; f < left.size(); ++f)
+            for (int i = 0; i < 3 && left[f]; ++i) {
+                const std::uint32_t a = body.mesh.faces[f][i], b = body.mesh.faces[f][(i + 1) % 3];
+                ASSERT_NEAR(glm::distance(moved[a], moved[b]), glm::distance(atRest[a], atRest[b]), 1e-4);
+            }
+    }
 }
 
 TEST(CutFacesDrawn, noFaceSpansACut) {
