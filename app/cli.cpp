@@ -188,7 +188,7 @@ void addMap(CLI::App& app, Choice& choice) {
         app.add_subcommand("map", "Let a detailed surface follow a coarse mesh that something else moves");
     struct Arguments {
         MapOptions options;
-        std::string mapping;
+        std::string mapping, size, gl = "auto";
     };
     auto given = std::make_shared<Arguments>();
     command->add_option("surface", given->options.surface, "detailed surface at rest; need not be closed")
@@ -212,17 +212,27 @@ void addMap(CLI::App& app, Choice& choice) {
     command->add_option("--out", given->options.out, "folder for surface_000001.ply and on")
         ->required()
         ->type_name("DIR");
+    command->add_flag("--pictures", given->options.pictures, "draw frame_000001.png and on, too");
+    command->add_option("--size", given->size, "size of the pictures in pixels (default: 960x960)")
+        ->type_name("WxH");
+    addGlOption(*command, given->gl);
     command->add_flag("--force", given->options.force, "replace surfaces of an earlier run");
     command->footer(
         "Example:\n  serosa map fine.ply --nodes coarse.ply --frames moving --length-unit mm --out "
         "moved\n"
-        "Exit codes: 0 written, 2 bad input.");
+        "Exit codes: 0 written, 2 bad input, 5 no OpenGL context for pictures.");
     command->callback([given, &choice] {
         choice.action = [given]() -> Result<int> {
             if (!given->mapping.empty()) {
                 SEROSA_ASSIGN(const int mapping, wordIndex("--mapping", given->mapping,
                                                            sim::findSceneKey("look", "mapping")->words));
                 given->options.mapping = sim::Mapping(mapping);
+            }
+            SEROSA_ASSIGN(given->options.gl, gpu::parseGlChoice(given->gl));
+            if (!given->size.empty()) {
+                SEROSA_ASSIGN(const glm::ivec2 size, parseSize(given->size));
+                given->options.width = size.x;
+                given->options.height = size.y;
             }
             return mapNodes(given->options, std::cout);
         };

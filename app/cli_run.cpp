@@ -31,18 +31,6 @@ struct RunArguments {
     bool force = false, repair = false, anySolver = false;
 };
 
-Result<glm::ivec2> parseSize(const std::string& text) {
-    glm::ivec2 size(0);
-    char rest = 0;
-    if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2)
-        return Error{"--size: " + sim::inQuotes(text) +
-                     " is not a size: write width x height in pixels, such as 960x540"};
-    const sim::ValueRange range = sim::findSceneKey("output", "size")->range;
-    if (!range.holds(size.x) || !range.holds(size.y))
-        return Error{"--size: " + sim::inQuotes(text) + ": each side goes " + range.text() + " pixels"};
-    return size;
-}
-
 Result<RunOptions> runOptions(const std::string& command, const RunArguments& given) {
     RunOptions options;
     if (given.scene.empty() == given.model.empty())
@@ -146,6 +134,18 @@ void addSceneOptions(CLI::App& command, RunArguments& given) {
 }
 
 } // namespace
+
+Result<glm::ivec2> parseSize(const std::string& text) {
+    glm::ivec2 size(0);
+    char rest = 0;
+    if (text.size() > 16 || std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2)
+        return Error{"--size: " + sim::inQuotes(text) +
+                     " is not a size: write width x height in pixels, such as 960x540"};
+    const sim::ValueRange range = sim::findSceneKey("output", "size")->range;
+    if (!range.holds(size.x) || !range.holds(size.y))
+        return Error{"--size: " + sim::inQuotes(text) + ": each side goes " + range.text() + " pixels"};
+    return size;
+}
 
 Result<int> wordIndex(const std::string& option, const std::string& text,
                       const std::vector<std::string>& words) {

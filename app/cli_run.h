@@ -5,6 +5,8 @@
 #include "app/run.h"
 #include "base/result.h"
 
+#include <glm/glm.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ Result<int> wordIndex(const std::string& option, const std::string& text,
 Result<std::string> chosenSolver(const std::string& text);
 /// "2.5 mm" in metres, more than 0. Errors name --spacing.
 Result<double> parseSpacing(const std::string& text);
+
+/// "960x540" in pixels. Errors name --size.
+Result<glm::ivec2> parseSize(const std::string& text);
 
 void addGlOption(CLI::App& command, std::string& gl);
 void addRepairFlag(CLI::App& command, bool& repair);

@@ -3,12 +3,15 @@
 
 #include "app/organ_setup.h"
 #include "app/output_folder.h"
-#include "render/surface_binding.h"
+#include "render/camera.h"
+#include "render/surface_renderer.h"
 #include "sim/mesh_reader.h"
 #include "sim/mesh_writer.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <ostream>
 #include <vector>
 
@@ -54,11 +57,49 @@ Status checkFrame(const fs::path& file, const sim::TriangleMesh& frame, const si
     return {};
 }
 
-std::string frameName(std::size_t frame) {
+std::string frameName(const char* pattern, std::size_t frame) {
     char name[32];
-    std::snprintf(name, sizeof name, "surface_%06zu.ply", frame);
+    std::snprintf(name, sizeof name, pattern, frame);
     return name;
 }
+
+/// Draws the surface from the nodes, as a scene's organ is drawn from a solver's.
+class Pictures {
+public:
+    static Result<Pictures> create(const MapOptions& options, const render::ControlNodes& nodes,
+                                   const sim::TriangleMesh& metres, const render::SurfaceBinding& binding) {
+        Pictures pictures;
+        SEROSA_ASSIGN(pictures.context_, gpu::createContext(options.gl));
+        SEROSA_ASSIGN(sim::StateTextures state,
+                      sim::StateTextures::create(render::standInLattice(nodes), {}));
+        pictures.state_.emplace(std::move(state));
+        SEROSA_ASSIGN(render::SurfaceRenderer renderer,
+                      render::SurfaceRenderer::create(nodes, metres, binding, *pictures.state_, options.width,
+                                                      options.height));
+        pictures.renderer_.emplace(std::move(renderer));
+        pictures.view_.camera =
+            render::makeCamera({}, metres.lowest(), metres.highest(), double(options.width) / options.height);
+        pictures.view_.look.mapping = binding.mapping;
+        return pictures;
+    }
+    render::Image draw(const std::vector<glm::dvec3>& positions, const std::vector<std::uint32_t>& normals) {
+        sim::LatticeState state;
+        state.positions = positions;
+        state.increments.resize(positions.size(), glm::dvec3(0));
+        state.normals = normals;
+        state.heldBy.resize(positions.size());
+        state_->upload(state);
+        renderer_->draw(*state_, view_);
+        return renderer_->readImage();
+    }
+
+private:
+    Pictures() = default;
+    std::unique_ptr<gpu::Context> context_; // dies last
+    std::optional<sim::StateTextures> state_;
+    std::optional<render::SurfaceRenderer> renderer_;
+    render::View view_;
+};
 
 } // namespace
 
@@ -82,6 +123,11 @@ Result<int> mapNodes(const MapOptions& options, std::ostream& out) {
     out << grouped(surface.positions.size()) << " vertices follow " << grouped(control.count()) << " nodes, "
         << shortNumber(1e3 * control.spacing) << " mm apart\n";
 
+    std::optional<Pictures> pictures;
+    if (options.pictures) {
+        SEROSA_ASSIGN(Pictures made, Pictures::create(options, control, surface, binding));
+        pictures.emplace(std::move(made));
+    }
     SEROSA_TRY(folder.create());
     for (std::size_t i = 0; i < frames.size(); ++i) {
         SEROSA_ASSIGN(const sim::TriangleMesh frame, readScaled(frames[i], unit));
@@ -89,14 +135,18 @@ Result<int> mapNodes(const MapOptions& options, std::ostream& out) {
         std::vector<glm::dvec3> moved;
         for (const glm::dvec3& p : frame.positions)
             moved.push_back(control.toNodes(p));
-        const std::vector<glm::dvec3> mapped =
-            render::mapSurface(binding, moved, render::packedNormals(control, moved));
+        const std::vector<std::uint32_t> normals = render::packedNormals(control, moved);
+        if (pictures)
+            SEROSA_TRY(render::writePng(pictures->draw(moved, normals),
+                                        folder.file(frameName("frame_%06zu.png", i + 1))));
+        const std::vector<glm::dvec3> mapped = render::mapSurface(binding, moved, normals);
         for (std::size_t v = 0; v < mapped.size(); ++v)
             surface.positions[v] = control.toWorld(mapped[v]) / unit;
-        SEROSA_TRY(sim::writeMesh(surface, folder.file(frameName(i + 1))));
+        SEROSA_TRY(sim::writeMesh(surface, folder.file(frameName("surface_%06zu.ply", i + 1))));
     }
     folder.keep();
-    out << "wrote " << grouped(frames.size()) << " surfaces into " << options.out.string() << "\n";
+    out << "wrote " << grouped(frames.size())
+        << (pictures ? " surfaces and pictures into " : " surfaces into ") << options.out.string() << "\n";
     return int(exitOk);
 }
 

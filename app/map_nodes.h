@@ -4,6 +4,7 @@
 // interconnected points").
 
 #include "base/result.h"
+#include "gpu/context.h"
 #include "sim/scene.h"
 
 #include <filesystem>
@@ -20,6 +21,9 @@ struct MapOptions {
     sim::Mapping mapping = sim::Mapping::nodeFrames;
     std::filesystem::path out;
     bool force = false;
+    bool pictures = false; // frame_000001.png and on, too, drawn from the nodes on the GPU
+    int width = 960, height = 960;
+    gpu::GlChoice gl = gpu::GlChoice::automatic;
 };
 
 /// Writes surface_000001.ply and on, in the files' unit, vertices and faces in the surface's order. Errors:

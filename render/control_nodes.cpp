@@ -56,6 +56,22 @@ ControlNodes controlNodes(const sim::TriangleMesh& metres) {
     return nodes;
 }
 
+sim::Lattice standInLattice(const ControlNodes& nodes) {
+    sim::Lattice lattice;
+    lattice.spacing = nodes.spacing;
+    lattice.origin = nodes.origin;
+    lattice.boundary = nodes.triangles;
+    lattice.nodeDims = {int(nodes.count()), 1, 1};
+    for (std::size_t i = 0; i < nodes.count(); ++i) {
+        lattice.nodes.emplace_back(int(i), 0, 0);
+        lattice.nodeOfGrid.push_back(std::int32_t(i));
+    }
+    lattice.connections.resize(nodes.count());
+    lattice.fills.resize(nodes.count());
+    lattice.depthSteps.resize(nodes.count());
+    return lattice;
+}
+
 std::vector<glm::dvec3> normalSums(const ControlNodes& nodes, const std::vector<glm::dvec3>& positions) {
     SEROSA_CHECK(positions.size() == nodes.count(), "positions of all nodes");
     std::vector<glm::dvec3> sums(nodes.count(), glm::dvec3(0));

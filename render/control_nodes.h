@@ -35,6 +35,11 @@ ControlNodes controlNodes(const sim::Lattice& lattice, const std::vector<std::ui
 /// Of a surface in metres: its vertices, joined by its edges. At least one edge that has a length.
 ControlNodes controlNodes(const sim::TriangleMesh& metres);
 
+/// What the GPU holds of such nodes: a lattice without springs or cells whose node i is node i here, with
+/// these triangles as its boundary. Only its texture layout, place and boundary mean anything; its nodes do
+/// not rest where these do.
+sim::Lattice standInLattice(const ControlNodes& nodes);
+
 /// The sums that node normals are the directions of: eq. 3's, or those of triangle areas.
 /// \param positions one a node
 std::vector<glm::dvec3> normalSums(const ControlNodes& nodes, const std::vector<glm::dvec3>& positions);

@@ -1,6 +1,7 @@
 // See render/cut_faces.h.
 #include "render/cut_faces.h"
 
+#include "render/cut_sides.h"
 #include "sim/pieces.h"
 
 #include <vector>
@@ -8,16 +9,6 @@
 namespace serosa::render {
 
 namespace {
-
-/// Were two nodes joined before anything was cut, and are they no longer?
-bool parted(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections, std::uint32_t a,
-            std::uint32_t b) {
-    const glm::ivec3 offset = lattice.nodes[b] - lattice.nodes[a];
-    for (std::size_t d = 0; d < sim::kNeighbourOffsets.size(); ++d)
-        if (sim::kNeighbourOffsets[d] == offset)
-            return ((lattice.connections[a] & ~connections[a]) >> d) & 1U;
-    return false;
-}
 
 /// The nodes that a vertex follows.
 void addNodes(const SurfaceBinding& binding, std::uint32_t vertex, std::vector<std::uint32_t>& nodes) {
@@ -34,6 +25,7 @@ void addNodes(const SurfaceBinding& binding, std::uint32_t vertex, std::vector<s
 std::vector<bool> facesLeft(const sim::Lattice& lattice, const std::vector<glm::uvec3>& faces,
                             const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections) {
     const std::vector<std::uint32_t> labels = sim::pieceLabels(lattice, connections);
+    CutSides sides(lattice, connections);
     std::vector<bool> left(faces.size(), true);
     std::vector<std::uint32_t> nodes;
     for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -42,12 +34,12 @@ std::vector<bool> facesLeft(const sim::Lattice& lattice, const std::vector<glm::
             addNodes(binding, faces[f][i], nodes);
         bool touched = false;
         for (const std::uint32_t node : nodes)
-            touched = touched || connections[node] != lattice.connections[node];
+            touched = touched || sides.isNear(node);
         for (std::size_t i = 0; i < nodes.size() && left[f]; ++i)
             for (std::size_t j = 0; j < i && left[f]; ++j)
                 left[f] =
                     labels[nodes[i]] == labels[nodes[j]] &&
-                    !(touched && nodes[i] != nodes[j] && parted(lattice, connections, nodes[i], nodes[j]));
+                    (!touched || (!sides.parted(nodes[i], nodes[j]) && sides.together(nodes[i], nodes[j])));
     }
     return left;
 }

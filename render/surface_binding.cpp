@@ -4,6 +4,7 @@
 
 #include "base/check.h"
 #include "render/basis_choice.h"
+#include "render/cut_sides.h"
 #include "render/parallel.h"
 #include "render/surface_vertices.h"
 #include "render/triangle_basis.h"
@@ -132,6 +133,23 @@ std::vector<glm::dvec3> inNodes(const ControlNodes& nodes, const sim::TriangleMe
     return positions;
 }
 
+} // namespace
+
+void followTriangle(VertexBinding& bound, std::uint32_t& triangle, const ControlNodes& nodes,
+                    std::uint32_t chosen, const glm::dvec3& weights) {
+    const glm::uvec3& corners = nodes.triangles[chosen];
+    const int first = diagonalStart(nodes, corners);
+    for (int i = 0; i < 3; ++i) {
+        bound.nodes[i] = corners[(first + i) % 3];
+        const double weight = weights[(first + i) % 3];
+        bound.weights[i] = float(std::round(weight * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
+    }
+    bound.weights.z = float(exactWeights(bound.weights).z);
+    triangle = chosen;
+}
+
+namespace {
+
 /// Triangles and weights.
 SurfaceBinding choose(const ControlNodes& nodes, const sim::TriangleMesh& metres) {
     SEROSA_CHECK(!nodes.triangles.empty(), "triangles to follow (checkBinding)");
@@ -141,18 +159,10 @@ SurfaceBinding choose(const ControlNodes& nodes, const sim::TriangleMesh& metres
     binding.tornEdgesFound = choice.tornEdgesFound;
     binding.tornEdgesLeft = choice.tornEdgesLeft;
     binding.vertices.resize(metres.positions.size());
-    for (std::size_t v = 0; v < binding.vertices.size(); ++v) {
-        VertexBinding& bound = binding.vertices[v];
-        const glm::uvec3& corners = nodes.triangles[choice.triangles[v]];
-        const int first = diagonalStart(nodes, corners);
-        for (int i = 0; i < 3; ++i) {
-            bound.nodes[i] = corners[(first + i) % 3];
-            const double weight = choice.weights[v][(first + i) % 3];
-            bound.weights[i] = float(std::round(weight * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
-        }
-        bound.weights.z = float(exactWeights(bound.weights).z);
-    }
-    binding.triangles = std::move(choice.triangles);
+    binding.triangles.resize(metres.positions.size());
+    for (std::size_t v = 0; v < binding.vertices.size(); ++v)
+        followTriangle(binding.vertices[v], binding.triangles[v], nodes, choice.triangles[v],
+                       choice.weights[v]);
     return binding;
 }
 
@@ -177,6 +187,10 @@ SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice&
     SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
     SurfaceBinding other = binding;
     const ControlNodes nodes = controlNodes(lattice);
+    if (!connections.empty() && connections != lattice.connections) {
+        CutSides sides(lattice, connections);
+        followOwnSides(other, lattice, inNodes(nodes, metres), sides);
+    }
     expressVertices(other, nodes, RestNormals(lattice, connections), metres, mapping);
     if (mapping == Mapping::trilinear)
         other.cells = bindToCells(lattice, inNodes(nodes, metres));

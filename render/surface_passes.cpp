@@ -206,25 +206,23 @@ Status SurfacePasses::recompile() {
 }
 
 Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+                                     const std::vector<SurfaceBinding>& bindings,
+                                     const sim::TextureLayout& layout) {
     const CacheOrder order = cacheOrder(drawn_.faces, drawn_.origin.size());
     newIndex_ = order.newIndex;
     const glm::vec3 mean = textures_ ? 1.0F / textures_->albedoScale : glm::vec3(0);
     colours_ = vertexColours(metres, textures_ ? &mean : nullptr);
-    std::vector<SurfaceBinding> bindings{binding};
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
-        if (mapping != binding.mapping)
-            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
-    const RestNormals rest(lattice);
     restBox_ = restBox(lattice, metres);
-    for (const SurfaceBinding& one : bindings) {
+    for (const SurfaceBinding& one : bindings)
         SEROSA_TRY(createMapped(one, layout));
-        if (textures_)
+    if (textures_) {
+        const RestNormals rest(lattice);
+        for (const SurfaceBinding& one : bindings)
             createRest(one, lattice, metres, rest);
     }
     createStatic(lattice, metres);
     setIndices(order.indices);
-    SEROSA_TRY(createLevels(lattice, metres, binding, layout, order.indices));
+    SEROSA_TRY(createLevels(lattice, metres, bindings.front(), layout, order.indices));
     createNodes(lattice.boundary, layout);
     return {};
 }
@@ -250,9 +248,8 @@ void SurfacePasses::createNodes(const std::vector<glm::uvec3>& boundary, const s
 }
 
 Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                            const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                                            const SurfaceDetail* detail) {
-    SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
+                                            const std::vector<SurfaceBinding>& bindings,
+                                            const sim::TextureLayout& layout, const SurfaceDetail* detail) {
     SurfacePasses passes;
     passes.bounds_ = restBox(lattice, metres);
     passes.meshVertices_ = metres.positions.size();
@@ -264,9 +261,12 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     plain.positions = metres.positions;
     plain.faces = metres.faces;
     passes.drawn_ = drawnVertices(detail ? metres : plain, metres.vertexNormals());
-    const bool corrected = binding.mapping == sim::Mapping::curvature;
-    passes.anyConstant_ = !corrected || binding.constantVertices > 0;
-    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
+    for (const SurfaceBinding& binding : bindings) {
+        SEROSA_CHECK(binding.vertices.size() == metres.positions.size(), "the binding is of another mesh");
+        passes.anyConstant_ = passes.anyConstant_ ||
+                              (binding.mapping == sim::Mapping::curvature && binding.constantVertices > 0);
+    }
+    SEROSA_TRY(passes.createGeometry(lattice, metres, bindings, layout));
     SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
     SEROSA_TRY(passes.createCaptures());
     if (detail)

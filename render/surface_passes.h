@@ -36,10 +36,11 @@ inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behi
 
 class SurfacePasses {
 public:
-    /// Ready to draw both bases of MS05, the binding's own mapping, the undeformed twin and the boundary.
+    /// Ready to draw the mappings of the bindings, the undeformed twin and the boundary.
     /// \param detail null: no texture
     static Result<SurfacePasses> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                        const SurfaceBinding& binding, const sim::TextureLayout& layout,
+                                        const std::vector<SurfaceBinding>& bindings,
+                                        const sim::TextureLayout& layout,
                                         const SurfaceDetail* detail = nullptr);
     bool draws(SurfaceStage stage) const { return geometry_.count(stage) > 0; }
 
@@ -127,7 +128,7 @@ private:
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
     std::vector<SurfaceStage> mappedStages() const;
     Status createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                          const SurfaceBinding& binding, const sim::TextureLayout& layout);
+                          const std::vector<SurfaceBinding>& bindings, const sim::TextureLayout& layout);
     /// The vertex buffer of a binding's mapping, of the surface and then of the copies along cuts.
     Status createMapped(const SurfaceBinding& binding, const sim::TextureLayout& layout);
     /// Their rest states, where cuts or textures ask for them.

@@ -69,7 +69,8 @@ Status SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::Trian
         bufferPositions[newIndex_[i]] = glm::vec3(lattice.toLattice(positions[i]));
     }
     for (Level& level : levels_) {
-        if (std::size_t(level.count) < 3 * kLeastForClusters)
+        if (std::size_t(level.count) < 3 * kLeastForClusters ||
+            lattice.cells.empty()) // or nodes from elsewhere
             continue;
         std::vector<std::uint32_t> own = indices;
         own.resize(std::size_t(level.count));

@@ -29,9 +29,10 @@ struct DrawnOrgan {
     glm::dvec3 lowest, highest; // at rest, m
 
     static Result<DrawnOrgan> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                                     const SurfaceDetail* detail) {
-        SEROSA_ASSIGN(SurfacePasses surface, SurfacePasses::create(lattice, metres, binding, layout, detail));
+                                     const std::vector<SurfaceBinding>& bindings,
+                                     const sim::TextureLayout& layout, const SurfaceDetail* detail) {
+        SEROSA_ASSIGN(SurfacePasses surface,
+                      SurfacePasses::create(lattice, metres, bindings, layout, detail));
         SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, layout));
         sim::Lattice placement;
         placement.spacing = lattice.spacing;
@@ -40,6 +41,16 @@ struct DrawnOrgan {
                           metres.highest()};
     }
 };
+
+/// The binding, and MS05's two bases over the same triangles.
+std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                                          const sim::TriangleMesh& metres) {
+    std::vector<SurfaceBinding> bindings{binding};
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
+        if (mapping != binding.mapping)
+            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
+    return bindings;
+}
 
 } // namespace
 
@@ -81,7 +92,22 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
                                                 const SurfaceBinding& binding,
                                                 const sim::StateTextures& state, int width, int height,
                                                 const SurfaceDetail* detail) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
+    return create(lattice, metres, withBothBases(binding, lattice, metres), state.layout(), width, height,
+                  detail);
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const ControlNodes& nodes, const sim::TriangleMesh& metres,
+                                                const SurfaceBinding& binding,
+                                                const sim::StateTextures& state, int width, int height) {
+    return create(standInLattice(nodes), metres, std::vector<SurfaceBinding>{binding}, state.layout(), width,
+                  height, nullptr);
+}
+
+Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                                const std::vector<SurfaceBinding>& bindings,
+                                                const sim::TextureLayout& layout, int width, int height,
+                                                const SurfaceDetail* detail) {
+    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, bindings, layout, detail));
     SEROSA_ASSIGN(ToolRenderer tools, ToolRenderer::create());
     SEROSA_ASSIGN(ThreadRenderer threads, ThreadRenderer::create());
     SEROSA_ASSIGN(gpu::Program backdrop, compileBackdrop(gpu::ShaderLibrary()));
@@ -102,7 +128,9 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const sim::Lattice& lattice, con
 Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                  const SurfaceBinding& binding, const sim::StateTextures& state,
                                  const SurfaceDetail* detail) {
-    SEROSA_ASSIGN(DrawnOrgan organ, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
+    SEROSA_ASSIGN(
+        DrawnOrgan organ,
+        DrawnOrgan::create(lattice, metres, withBothBases(binding, lattice, metres), state.layout(), detail));
     impl_->organs.push_back(std::move(organ));
     return {};
 }
@@ -110,7 +138,9 @@ Status SurfaceRenderer::addOrgan(const sim::Lattice& lattice, const sim::Triangl
 Status SurfaceRenderer::addLevel(std::size_t organ, const sim::Lattice& lattice,
                                  const sim::TriangleMesh& metres, const SurfaceBinding& binding,
                                  const sim::StateTextures& state, const SurfaceDetail* detail) {
-    SEROSA_ASSIGN(DrawnOrgan drawn, DrawnOrgan::create(lattice, metres, binding, state.layout(), detail));
+    SEROSA_ASSIGN(
+        DrawnOrgan drawn,
+        DrawnOrgan::create(lattice, metres, withBothBases(binding, lattice, metres), state.layout(), detail));
     SEROSA_TRY(drawn.surface.prepareBlend());
     SEROSA_TRY(impl_->organs.at(organ).surface.prepareBlend());
     impl_->levels.resize(impl_->organs.size());
@@ -318,11 +348,16 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
     SurfacePasses& surface = impl_->organs.at(organ).surface;
     const sim::TextureLayout& layout = state.layout();
     const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
-    const CutSurface cut = cutSurface(lattice, metres, binding, connections, sides);
     std::vector<SurfaceBinding> rebound;
+    const SurfaceBinding* ofFaces = nullptr;
     for (const sim::Mapping drawn : sim::kSurfaceMappings)
         if (surface.draws(stageOf(drawn)))
             rebound.push_back(expressBinding(binding, lattice, metres, drawn, connections));
+    for (const SurfaceBinding& candidate : rebound)
+        if (candidate.mapping == binding.mapping)
+            ofFaces = &candidate;
+    SEROSA_CHECK(ofFaces, "the binding that the organ was added with");
+    const CutSurface cut = cutSurface(lattice, metres, *ofFaces, connections, sides);
     const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
     impl_->target.bind();
     if (!fades)

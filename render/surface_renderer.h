@@ -47,6 +47,12 @@ public:
     static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                           const SurfaceBinding& binding, const sim::StateTextures& state,
                                           int width, int height, const SurfaceDetail* detail = nullptr);
+    /// The same of nodes that something else moves: it draws one-to-one (their triangles) and the binding's
+    /// own mapping. `state` is of standInLattice(nodes); its positions are in the nodes' unit, its normals
+    /// packedNormals.
+    static Result<SurfaceRenderer> create(const ControlNodes& nodes, const sim::TriangleMesh& metres,
+                                          const SurfaceBinding& binding, const sim::StateTextures& state,
+                                          int width, int height);
     SurfaceRenderer(SurfaceRenderer&&) noexcept;
     SurfaceRenderer& operator=(SurfaceRenderer&&) noexcept;
     ~SurfaceRenderer();
@@ -139,6 +145,10 @@ public:
 
 private:
     struct Impl;
+    static Result<SurfaceRenderer> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                          const std::vector<SurfaceBinding>& bindings,
+                                          const sim::TextureLayout& layout, int width, int height,
+                                          const SurfaceDetail* detail);
     explicit SurfaceRenderer(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };

@@ -310,7 +310,10 @@ TriangleChoice chooseTriangles(const ControlNodes& control, const std::vector<gl
     std::vector<glm::dvec3> facing;
     for (const glm::uvec3& t : control.triangles)
         facing.push_back(glm::normalize(glm::cross(nodes[t.y] - nodes[t.x], nodes[t.z] - nodes[t.x])));
-    const std::vector<glm::dvec3> outward = smoothed(faces, positions, normals);
+    // A surface's own triangles are no staircase, and what follows may lie on either side of them, a vessel's
+    // wall all around: the closest serves.
+    const bool closestOfAll = control.normalsOfTriangles;
+    const std::vector<glm::dvec3> outward = closestOfAll ? normals : smoothed(faces, positions, normals);
 
     TriangleChoice choice;
     choice.triangles.resize(positions.size());
@@ -318,6 +321,12 @@ TriangleChoice chooseTriangles(const ControlNodes& control, const std::vector<gl
     parallelFor(positions.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const glm::dvec3 start = positions[v] - kRayStart * outward[v];
+            if (closestOfAll) {
+                const auto closest = tree.closest(positions[v]);
+                choice.triangles[v] = closest.triangle;
+                choice.weights[v] = closest.weights;
+                continue;
+            }
             if (const auto hit = tree.firstHit(start, outward[v], kRayReach + kRayStart);
                 hit && !hit->front) {
                 choice.triangles[v] = hit->triangle;

@@ -17,6 +17,12 @@ namespace serosa::render {
 /// across it: on figure 6's bend that closes a third of the gaps that the corrected basis leaves.
 int diagonalStart(const ControlNodes& control, const glm::uvec3& nodes);
 
+struct VertexBinding;
+/// Sets nodes and weights (in the order of the triangle, rounded to what the GPU has) of a vertex, and its
+/// triangle. In render/surface_binding.cpp.
+void followTriangle(VertexBinding& bound, std::uint32_t& triangle, const ControlNodes& nodes,
+                    std::uint32_t chosen, const glm::dvec3& weights);
+
 struct TriangleChoice {
     std::vector<std::uint32_t> triangles; // into those of the nodes, one a vertex
     std::vector<glm::dvec3> weights;      // of the reference point, eq. 4, in the order of the triangle

@@ -83,8 +83,8 @@ Status measureNormals(CheckList& checks) {
     return {};
 }
 
-/// Tangent frames of the vertex stage in a strong bend: of unit length, at right angles, N x T = B (so that T,
-/// N, B of MS05 are a left hand's); node frames are a right hand's axes.
+/// Tangent frames of the vertex stage in a strong bend: of unit length, at right angles, N x T = B (so that
+/// T, N, B of MS05 are a left hand's); node frames are a right hand's axes.
 Status measureAxes(CheckList& checks) {
     SEROSA_ASSIGN(const SurfaceCase shape, surfaceCase("dragon", 10000, 0, 0.062));
     const auto move = [&](const glm::dvec3& q) { return render::bend(q, {}, 3); };

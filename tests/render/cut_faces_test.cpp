@@ -2,6 +2,7 @@
 #include "render/cut_faces.h"
 #include "sim/blade.h"
 #include "sim/pieces.h"
+#include "sim/solver.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,11 @@ struct CutEllipsoid {
     render::SurfaceBinding binding;
     std::vector<std::uint32_t> connections;
 
-    explicit CutEllipsoid(double lowestY) {
-        mesh = test::ballMesh(1, 4);
+    double x = 0.0004; // m: of the blade
+
+    /// \param inPlane the blade lies in a plane of nodes, which it frees from all springs
+    explicit CutEllipsoid(double lowestY, int subdivisions = 4, bool inPlane = false) {
+        mesh = test::ballMesh(1, subdivisions);
         for (glm::dvec3& p : mesh.positions)
             p *= glm::dvec3(0.018, 0.006, 0.006);
         sim::LatticeRequest request;
@@ -30,8 +34,10 @@ struct CutEllipsoid {
         binding = render::bindSurface(lattice, mesh, sim::Mapping::triangle);
         connections = lattice.connections;
         sim::Stroke stroke;
-        stroke.from = {glm::dvec3(0.0004, 0.02, -0.02), glm::dvec3(0.0004, 0.02, 0.02)};
-        stroke.to = {glm::dvec3(0.0004, lowestY, -0.02), glm::dvec3(0.0004, lowestY, 0.02)};
+        if (inPlane)
+            x = lattice.toWorld(glm::dvec3(0)).x;
+        stroke.from = {glm::dvec3(x, 0.02, -0.02), glm::dvec3(x, 0.02, 0.02)};
+        stroke.to = {glm::dvec3(x, lowestY, -0.02), glm::dvec3(x, lowestY, 0.02)};
         std::vector<glm::dvec3> rest;
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
             rest.push_back(lattice.restPosition(node));
@@ -48,6 +54,70 @@ TEST(CutFacesDrawn, allFacesWhereNothingIsCut) {
         render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
     EXPECT_EQ(std::count(left.begin(), left.end(), false), 0);
     EXPECT_EQ(sim::boundaryLeft(body.lattice, body.connections), body.lattice.boundary);
+}
+
+TEST(CutFacesDrawn, VerticesFollowTheirOwnSideAndNoFaceIsStretched) {
+    const CutEllipsoid body(-0.02, 5); // all through
+    const sim::LatticeState rest = sim::restState(body.lattice);
+    std::vector<glm::dvec3> apart = rest.positions;
+    for (glm::dvec3& p : apart) // both halves go their way
+        p.x += body.lattice.toWorld(p).x > 0.0004 ? 2.5 : -2.5;
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::nodeFrames}) {
+        const render::SurfaceBinding whole =
+            render::expressBinding(body.binding, body.lattice, body.mesh, mapping);
+        const render::SurfaceBinding rebound =
+            render::expressBinding(whole, body.lattice, body.mesh, mapping, body.connections);
+        const auto dropped = [&](const render::SurfaceBinding& binding) {
+            const std::vector<bool> left =
+                render::facesLeft(body.lattice, body.mesh.faces, binding, body.connections);
+            return std::count(left.begin(), left.end(), false);
+        };
+        EXPECT_GT(dropped(rebound), 0);
+        EXPECT_LT(double(dropped(rebound)), 0.6 * double(dropped(whole)));
+        const auto atRest = render::mapSurface(rebound, rest.positions, rest.normals);
+        const auto moved = render::mapSurface(rebound, apart, rest.normals);
+        const std::vector<bool> left =
+            render::facesLeft(body.lattice, body.mesh.faces, rebound, body.connections);
+        for (std::size_t v = 0; v < atRest.size(); ++v)
+            ASSERT_LE(glm::distance(atRest[v], body.lattice.toLattice(body.mesh.positions[v])), 1e-5);
+        for (std::size_t f = 0; f < left.size(); ++f)
+            for (int i = 0; i < 3 && left[f]; ++i) {
+                const std::uint32_t a = body.mesh.faces[f][i], b = body.mesh.faces[f][(i + 1) % 3];
+                ASSERT_NEAR(glm::distance(moved[a], moved[b]), glm::distance(atRest[a], atRest[b]), 1e-4);
+            }
+    }
+}
+
+TEST(CutFacesDrawn, NoFaceIsStretchedOverACutThatGapes) {
+    for (const bool inPlane : {false, true}) {
+        const CutEllipsoid body(-0.003, 5, inPlane); // not through: both sides are one piece
+        const sim::LatticeState rest = sim::restState(body.lattice);
+        const double tip = body.lattice.toLattice({0, -0.003, 0}).y;
+        const auto sideOf = [&](const glm::dvec3& p) {
+            return body.lattice.toWorld(p).x > body.x ? 1.0 : -1.0;
+        };
+        std::vector<glm::dvec3> open = rest.positions;
+        for (glm::dvec3& p : open)
+            p.x += sideOf(p) * 0.25 * std::max(0.0, p.y - tip);
+        const render::SurfaceBinding rebound = render::expressBinding(
+            body.binding, body.lattice, body.mesh, sim::Mapping::nodeFrames, body.connections);
+        const auto atRest = render::mapSurface(rebound, rest.positions, rest.normals);
+        const auto moved = render::mapSurface(rebound, open, rest.normals);
+        const std::vector<bool> left =
+            render::facesLeft(body.lattice, body.mesh.faces, rebound, body.connections);
+        std::size_t beside = 0;
+        for (std::size_t f = 0; f < left.size(); ++f)
+            for (int i = 0; i < 3 && left[f]; ++i) {
+                const std::uint32_t a = body.mesh.faces[f][i], b = body.mesh.faces[f][(i + 1) % 3];
+                if (std::min(atRest[a].y, atRest[b].y) < tip + 2.5) // around its end it gapes little
+                    continue;
+                beside += std::abs(atRest[a].x) < 1.5;
+                ASSERT_LE(std::abs(glm::distance(moved[a], moved[b]) - glm::distance(atRest[a], atRest[b])),
+                          0.6)
+                    << f;
+            }
+        EXPECT_GT(beside, 100U); // faces are drawn up to it
+    }
 }
 
 TEST(CutFacesDrawn, noFaceSpansACut) {

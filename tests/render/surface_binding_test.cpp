@@ -3,6 +3,7 @@
 #include "render/surface_binding.h"
 #include "render/triangle_choice.h"
 #include "sim/solver.h"
+#include "sim/triangle_tree.h"
 #include "tests/render/shapes.h"
 
 #include <gtest/gtest.h>
@@ -175,6 +176,20 @@ TEST(ControlNodes, OfALatticeBindAsTheLatticeDoes) {
                                   mapSurface(other, bent.positions, bent.normals)),
                   1e-6);
     }
+}
+
+TEST(ControlNodes, OfASurfaceAreFollowedByTheClosestTriangle) {
+    // A thin tube that sticks out of a coarse ball: both sides of its wall follow the same triangles.
+    const sim::TriangleMesh coarse = test::ballMesh(3, 0.04, {0, 0, 0});
+    sim::TriangleMesh tube = test::ballMesh(8, 0.004, {0, 0, 0});
+    for (glm::dvec3& p : tube.positions)
+        p = glm::dvec3(0.03, 0.03, 0.01) + glm::dvec3(5 * p.x, p.y, p.z);
+    const ControlNodes nodes = controlNodes(coarse);
+    const SurfaceBinding binding = bindSurface(nodes, tube, sim::Mapping::nodeFrames);
+    const sim::TriangleTree tree(nodes.rest, nodes.triangles);
+    EXPECT_EQ(binding.tornEdgesFound, 0U);
+    for (std::size_t v = 0; v < tube.positions.size(); ++v)
+        EXPECT_EQ(binding.triangles[v], tree.closest(nodes.toNodes(tube.positions[v])).triangle);
 }
 
 TEST(TornEdges, APatchOnTheWrongSideIsCountedAndFloodedBack) {

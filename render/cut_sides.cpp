@@ -1,0 +1,112 @@
+// See render/cut_sides.h.
+#include "render/cut_sides.h"
+
+#include "render/triangle_basis.h"
+#include "render/triangle_choice.h"
+#include "shaders/mapping_constants.h"
+#include "sim/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace serosa::render {
+
+namespace {
+
+constexpr int kNearSprings = 2;     // around what a cut touched
+constexpr int kTogetherSprings = 4; // between nodes of one side
+constexpr double kReach = 3;        // spacings to another triangle
+constexpr double kFacing = 0.1;     // least cosine between the normals of the old and the new one
+
+/// The node with the largest weight, of those that are joined to anything.
+std::optional<std::uint32_t> nearestNode(const VertexBinding& bound, const CutSides& sides) {
+    std::optional<std::uint32_t> best;
+    float most = 0;
+    for (int i = 0; i < 3; ++i)
+        if (!sides.isLoose(bound.nodes[i]) && (!best || bound.weights[i] > most)) {
+            best = bound.nodes[i];
+            most = bound.weights[i];
+        }
+    return best;
+}
+
+} // namespace
+
+CutSides::CutSides(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections)
+    : lattice_(lattice), connections_(connections), near_(lattice.nodeCount()) {
+    for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+        near_[node] = connections[node] != lattice.connections[node];
+    for (int ring = 0; ring < kNearSprings; ++ring) {
+        const std::vector<bool> inner = near_;
+        for (std::size_t node = 0; node < lattice.nodeCount(); ++node)
+            for (int d = 0; d < 18 && inner[node]; ++d)
+                if (const std::int64_t other = lattice.neighbour(node, d); other >= 0)
+                    near_[std::size_t(other)] = true;
+    }
+}
+
+bool CutSides::parted(std::uint32_t a, std::uint32_t b) const {
+    const glm::ivec3 offset = lattice_.nodes[b] - lattice_.nodes[a];
+    for (std::size_t d = 0; d < sim::kNeighbourOffsets.size(); ++d)
+        if (sim::kNeighbourOffsets[d] == offset)
+            return ((lattice_.connections[a] & ~connections_[a]) >> d) & 1U;
+    return false;
+}
+
+bool CutSides::isWhole(const glm::uvec3& nodes) const {
+    return !parted(nodes.x, nodes.y) && !parted(nodes.y, nodes.z) && !parted(nodes.z, nodes.x);
+}
+
+bool CutSides::together(std::uint32_t a, std::uint32_t b) {
+    if (a == b)
+        return true;
+    auto [it, fresh] = around_.try_emplace(a);
+    std::vector<std::uint32_t>& around = it->second;
+    if (fresh) {
+        around = {a};
+        std::size_t begin = 0;
+        for (int step = 0; step < kTogetherSprings; ++step) {
+            const std::size_t end = around.size();
+            for (std::size_t i = begin; i < end; ++i)
+                for (int d = 0; d < 18; ++d)
+                    if ((connections_[around[i]] >> d) & 1U)
+                        around.push_back(std::uint32_t(lattice_.neighbour(around[i], d)));
+            std::sort(around.begin() + std::ptrdiff_t(end), around.end());
+            around.erase(std::unique(around.begin() + std::ptrdiff_t(end), around.end()), around.end());
+            begin = end;
+        }
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+    }
+    return std::binary_search(around.begin(), around.end(), b);
+}
+
+void followOwnSides(SurfaceBinding& binding, const sim::Lattice& lattice,
+                    const std::vector<glm::dvec3>& positions, CutSides& sides) {
+    std::optional<sim::TriangleTree> tree; // where it is needed
+    const ControlNodes control = controlNodes(lattice);
+    const auto normalOf = [&](const glm::uvec3& t) {
+        return glm::normalize(triangleNormal(control.rest[t.x], control.rest[t.y], control.rest[t.z]));
+    };
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        VertexBinding& bound = binding.vertices[v];
+        if (!sides.isNear(bound.nodes.x) || sides.isWhole(bound.nodes))
+            continue;
+        const auto nearest = nearestNode(bound, sides);
+        if (!nearest)
+            continue;
+        if (!tree)
+            tree.emplace(control.rest, control.triangles);
+        const glm::dvec3 facing = normalOf(lattice.boundary[binding.triangles[v]]);
+        const auto closest = tree->closest(positions[v], kReach, [&](std::uint32_t t) {
+            const glm::uvec3& nodes = lattice.boundary[t];
+            return sides.isWhole(nodes) && glm::dot(facing, normalOf(nodes)) >= kFacing &&
+                   sides.together(*nearest, nodes.x);
+        });
+        if (closest)
+            followTriangle(bound, binding.triangles[v], control, closest.triangle, closest.weights);
+    }
+}
+
+} // namespace serosa::render

@@ -1,0 +1,45 @@
+#pragma once
+// Sides of a cut, by what connections it left: which nodes still belong together, and which triangle a vertex
+// follows once its own is cut through.
+
+#include "render/surface_binding.h"
+#include "sim/lattice.h"
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace serosa::render {
+
+class CutSides {
+public:
+    /// Both outlive this. \param connections 18 bits a node
+    CutSides(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections);
+
+    /// Does the cut reach within two springs of the node?
+    bool isNear(std::uint32_t node) const { return near_[node]; }
+    /// Is the node joined to nothing any more?
+    bool isLoose(std::uint32_t node) const { return connections_[node] == 0; }
+    /// Were two nodes joined before the cut, and are they no longer?
+    bool parted(std::uint32_t a, std::uint32_t b) const;
+    /// Are no two of a triangle's nodes parted?
+    bool isWhole(const glm::uvec3& nodes) const;
+    /// Are two nodes joined through at most four springs that are left? Around the end of a cut, where it
+    /// gapes little, its sides are.
+    bool together(std::uint32_t a, std::uint32_t b);
+
+private:
+    const sim::Lattice& lattice_;
+    const std::vector<std::uint32_t>& connections_;
+    std::vector<bool> near_;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> around_; // nodes within four springs, sorted
+};
+
+/// Vertices whose triangle is cut through follow from now on the closest whole triangle that faces the same
+/// way and goes with the node which they lay nearest to: triangle, nodes and weights; all else is to be
+/// expressed anew. Where there is none within three spacings they stay as they are (and their faces are not
+/// drawn: render/cut_faces.h). \param positions of the vertices at rest, lattice units
+void followOwnSides(SurfaceBinding& binding, const sim::Lattice& lattice,
+                    const std::vector<glm::dvec3>& positions, CutSides& sides);
+
+} // namespace serosa::render
