@@ -74,7 +74,9 @@ protected:
             ASSERT_TRUE(!mask || renderer_->paintCut(0, lattice_, *state_, stroke).ok());
             sim::cutConnections(lattice_, now.positions, toLattice(stroke, lattice_), connections_);
         }
-        renderer_->showCuts(0, lattice_, mesh_, binding_, state_->layout(), connections_);
+        ASSERT_TRUE(renderer_->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
+                                        sim::Mapping::curvature, false)
+                        .ok());
     }
 
     Image draw() {
@@ -182,7 +184,9 @@ TEST_F(GlCutMask, SavedBytesGiveTheSamePicture) {
     const Image image = draw();
     const std::string bytes = renderer_->saveCuts(0);
     const auto show = [&] {
-        renderer_->showCuts(0, lattice_, mesh_, binding_, state_->layout(), connections_);
+        EXPECT_TRUE(renderer_->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
+                                        sim::Mapping::curvature, false)
+                        .ok());
         return draw();
     };
     ASSERT_TRUE(renderer_->restoreCuts(0, lattice_, *state_, {}).ok());
