@@ -219,16 +219,12 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
                                  bool fades) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;
     const sim::TextureLayout& layout = state.layout();
-    std::vector<SurfaceBinding> rebound;
-    const SurfaceBinding* ofFaces = nullptr;
+    std::vector<SurfaceBinding> rebound{
+        expressBinding(binding, lattice, metres, binding.mapping, connections)};
     for (const sim::Mapping drawn : sim::kSurfaceMappings)
-        if (surface.draws(stageOf(drawn)))
-            rebound.push_back(expressBinding(binding, lattice, metres, drawn, connections));
-    for (const SurfaceBinding& candidate : rebound)
-        if (candidate.mapping == binding.mapping)
-            ofFaces = &candidate;
-    SEROSA_CHECK(ofFaces, "the binding that the organ was added with");
-    surface.show(metres.faces, facesLeft(lattice, metres.faces, *ofFaces, connections),
+        if (drawn != binding.mapping && surface.draws(stageOf(drawn))) // sides are chosen already
+            rebound.push_back(expressBinding(rebound.front(), lattice, metres, drawn, connections));
+    surface.show(metres.faces, facesLeft(lattice, metres.faces, rebound.front(), connections),
                  sim::boundaryLeft(lattice, connections), layout);
     impl_->target.bind();
     if (!fades)

@@ -90,10 +90,6 @@
 #define SRS_STRAIN_ITERATIONS 4
 #define SRS_LIMIT_STIFFENING 10.0 // tangent beyond a strain limit over the tangent before it
 
-// Surface mapping modes, a vertex
-#define SRS_BASIS_CONSTANT 0u
-#define SRS_BASIS_CORRECTED 1u
-
 // What couples organs (sim/pair_contact.h, sim/thread_hold.h)
 #define SRS_PAIR_BRANCH 16   // triangles a box, and boxes a larger one
 #define SRS_PAIR_PARTS 64    // of a step, at most
