@@ -347,17 +347,13 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
                                  bool fades) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;
     const sim::TextureLayout& layout = state.layout();
-    const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
-    std::vector<SurfaceBinding> rebound;
-    const SurfaceBinding* ofFaces = nullptr;
+    std::vector<SurfaceBinding> rebound{
+        expressBinding(binding, lattice, metres, binding.mapping, connections)};
     for (const sim::Mapping drawn : sim::kSurfaceMappings)
-        if (surface.draws(stageOf(drawn)))
-            rebound.push_back(expressBinding(binding, lattice, metres, drawn, connections));
-    for (const SurfaceBinding& candidate : rebound)
-        if (candidate.mapping == binding.mapping)
-            ofFaces = &candidate;
-    SEROSA_CHECK(ofFaces, "the binding that the organ was added with");
-    const CutSurface cut = cutSurface(lattice, metres, *ofFaces, connections, sides);
+        if (drawn != binding.mapping && surface.draws(stageOf(drawn))) // sides are chosen already
+            rebound.push_back(expressBinding(rebound.front(), lattice, metres, drawn, connections));
+    const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
+    const CutSurface cut = cutSurface(lattice, metres, rebound.front(), connections, sides);
     const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
     impl_->target.bind();
     if (!fades)

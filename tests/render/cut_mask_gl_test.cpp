@@ -74,8 +74,9 @@ protected:
             ASSERT_TRUE(!mask || renderer_->paintCut(0, lattice_, *state_, stroke).ok());
             sim::cutConnections(lattice_, now.positions, toLattice(stroke, lattice_), connections_);
         }
-        ASSERT_TRUE(renderer_->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
-                                        sim::Mapping::curvature, false)
+        ASSERT_TRUE(renderer_
+                        ->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
+                                   sim::Mapping::curvature, false)
                         .ok());
     }
 
@@ -184,8 +185,9 @@ TEST_F(GlCutMask, SavedBytesGiveTheSamePicture) {
     const Image image = draw();
     const std::string bytes = renderer_->saveCuts(0);
     const auto show = [&] {
-        EXPECT_TRUE(renderer_->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
-                                        sim::Mapping::curvature, false)
+        EXPECT_TRUE(renderer_
+                        ->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
+                                   sim::Mapping::curvature, false)
                         .ok());
         return draw();
     };
