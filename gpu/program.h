@@ -19,6 +19,9 @@
 
 namespace serosa::gpu {
 
+class Texture3D; // gpu/sampled_texture.h
+class TiledTexture;
+
 struct ShaderDefine {
     std::string name, value;
 };
@@ -94,9 +97,13 @@ public:
     Program& set(const std::string& name, std::span<const glm::vec4> values);
     /// Sampler `t_...`: remembers the texture (which must outlive the draw); bound to a unit by use().
     Program& texture(const std::string& name, const Texture2D& texture);
+    Program& texture(const std::string& name, const Texture3D& texture);
+    Program& texture(const std::string& name, const TiledTexture& texture);
     /// Image `i_...` (image2D, uimage2D): remembers texture and access; bound by use(). access: GL_READ_ONLY,
     /// ...
     Program& image(const std::string& name, const Texture2D& texture, GLenum access);
+    /// The same of a volume (uimage3D, layout(r32ui)).
+    Program& image(const std::string& name, const Texture3D& texture, GLenum access);
     /// Storage block `b_...`: remembers the buffer (which must outlive the draw or dispatch); bound by use().
     Program& buffer(const std::string& name, const Buffer& buffer);
     /// Uniform block `b_...`: remembers `bytes` of the buffer from `offset` on, a multiple of
@@ -139,6 +146,7 @@ private:
     /// The input to set, or null for one that the compiler removed; aborts on an unknown name or another
     /// type.
     Input* find(const std::string& name, std::initializer_list<GLenum> types, std::size_t count = 1);
+    Input* findTexture(const std::string& name, std::initializer_list<GLenum> types, const Handle& texture);
     Status listInputs();
     void listBlocks(GLenum kind);
     /// Aborts unless mismatches are tolerated.

@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "gpu/program.h"
+#include "gpu/sampled_texture.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -14,9 +15,10 @@ namespace serosa::gpu {
 
 namespace {
 
-constexpr GLenum kSamplers[] = {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D,
-                                GL_SAMPLER_2D_SHADOW};
-constexpr GLenum kImages[] = {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D};
+constexpr GLenum kSamplers[] = {GL_SAMPLER_2D,        GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D,
+                                GL_SAMPLER_2D_SHADOW, GL_SAMPLER_3D,     GL_UNSIGNED_INT_SAMPLER_3D};
+constexpr GLenum kImages[] = {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D,
+                              GL_UNSIGNED_INT_IMAGE_3D, GL_IMAGE_3D};
 
 bool isSampler(GLenum type) {
     return std::find(std::begin(kSamplers), std::end(kSamplers), type) != std::end(kSamplers);
@@ -203,21 +205,44 @@ Program& Program::set(const std::string& name, std::span<const glm::vec4> values
     return *this;
 }
 
-Program& Program::texture(const std::string& name, const Texture2D& texture) {
-    if (Input* input = find(
-            name, {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D, GL_SAMPLER_2D_SHADOW})) {
+Program::Input* Program::findTexture(const std::string& name, std::initializer_list<GLenum> types,
+                                     const Handle& texture) {
+    Input* input = find(name, types);
+    if (input) {
         SEROSA_CHECK(texture, name_ + ": input \"" + name + "\" was given an empty texture");
         input->textureId = texture.id();
     }
+    return input;
+}
+
+Program& Program::texture(const std::string& name, const Texture2D& texture) {
+    findTexture(name, {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D, GL_SAMPLER_2D_SHADOW},
+                texture);
+    return *this;
+}
+
+Program& Program::texture(const std::string& name, const Texture3D& texture) {
+    findTexture(name, {GL_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_3D}, texture);
+    return *this;
+}
+
+Program& Program::texture(const std::string& name, const TiledTexture& texture) {
+    findTexture(name, {GL_SAMPLER_2D}, texture);
     return *this;
 }
 
 Program& Program::image(const std::string& name, const Texture2D& texture, GLenum access) {
-    if (Input* input = find(name, {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D})) {
-        SEROSA_CHECK(texture, name_ + ": input \"" + name + "\" was given an empty texture");
-        input->textureId = texture.id();
+    if (Input* input = findTexture(name, {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D}, texture)) {
         input->imageAccess = access;
         input->imageFormat = texture.format();
+    }
+    return *this;
+}
+
+Program& Program::image(const std::string& name, const Texture3D& texture, GLenum access) {
+    if (Input* input = findTexture(name, {GL_UNSIGNED_INT_IMAGE_3D, GL_IMAGE_3D}, texture)) {
+        input->imageAccess = access;
+        input->imageFormat = input->type == GL_IMAGE_3D ? texture.format() : GL_R32UI;
     }
     return *this;
 }
@@ -276,7 +301,9 @@ void Program::use() const {
         SEROSA_CHECK(glIsTexture(input.textureId), name_ + ": the texture of input \"" + name + "\" is gone");
         const auto unit = static_cast<GLuint>(input.unit);
         if (isImage(input.type))
-            glBindImageTexture(unit, input.textureId, 0, GL_FALSE, 0, input.imageAccess, input.imageFormat);
+            glBindImageTexture(unit, input.textureId, 0,
+                               input.type == GL_UNSIGNED_INT_IMAGE_3D || input.type == GL_IMAGE_3D, 0,
+                               input.imageAccess, input.imageFormat);
         else
             glBindTextureUnit(unit, input.textureId);
     }
