@@ -39,8 +39,8 @@ glm::dvec3 RaycastTwin::fieldGradient(const glm::dvec3& rest) const {
     glm::dvec3 gradient(0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 by(0);
-        by[axis] = 0.5 * grid_.step;
-        gradient[axis] = (field(rest + by) - field(rest - by)) / grid_.step;
+        by[axis] = grid_.step;
+        gradient[axis] = (field(rest + by) - field(rest - by)) / (2 * grid_.step);
     }
     return gradient;
 }
