@@ -73,6 +73,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         return &found->second;
     std::vector<gpu::ShaderDefine> defines = {{"RAYCAST_SOLID", std::to_string(int(variant.solid))},
                                               {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
+    if (variant.lattice)
+        defines.push_back({"RAYCAST_LATTICE", "1"});
     if (variant.warped)
         defines.push_back({"RAYCAST_WARP", "1"});
     if (variant.probe)
@@ -83,13 +85,18 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 }
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
-    SEROSA_ASSIGN(gpu::Program* const made, program({look.solid, look.search, mapping_.has_value(), probe}));
+    SEROSA_ASSIGN(gpu::Program* const made,
+                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
     program.set("u_clipFromLattice", frame.clipFromLattice);
-    program.set("u_boxLowest", glm::vec3(toObject(lowest_)))
-        .set("u_boxHighest", glm::vec3(toObject(highest_)));
+    if (lattice_)
+        lattice_->bind(program);
+    else
+        program.set("u_boxLowest", glm::vec3(toObject(lowest_)))
+            .set("u_boxHighest", glm::vec3(toObject(highest_)));
+    program.set("u_boxSize", float(glm::distance(lowest_, highest_) / unit_));
     const double voxel = grid.step / unit_;
     program.set("u_fieldLowest", glm::vec3(toObject(grid.lowest))).set("u_fieldStep", float(voxel));
     program.texture("t_field", volume_->texture());

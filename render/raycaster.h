@@ -12,6 +12,7 @@
 #include "render/deformation_texture.h"
 #include "render/distance_volume.h"
 #include "render/frame.h"
+#include "render/lattice_warp.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
 
@@ -52,7 +53,10 @@ public:
 
     /// From now on; nothing: at rest. \param worldFromLocal of mapping: m
     void setWarp(const std::optional<Warp>& warp);
-    /// Bounds of what may be drawn, m: the field's, and where the warp can take it.
+    /// The organ as its lattice has it, from now on; null: at rest. A warp then acts on the organ at rest.
+    /// \param lattice outlives this
+    void setLattice(const LatticeWarp* lattice) { lattice_ = lattice; }
+    /// Bounds of what may be drawn, m: the field's, and where the warp can take it; of a lattice: its own.
     const glm::dvec3& lowest() const { return lowest_; }
     const glm::dvec3& highest() const { return highest_; }
 
@@ -66,7 +70,7 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool warped, probe;
+        bool lattice, warped, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -74,6 +78,7 @@ private:
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
     const DistanceVolume* volume_ = nullptr;
+    const LatticeWarp* lattice_ = nullptr;
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
     gpu::Texture3D displacement_;

@@ -3,11 +3,11 @@
 // RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; kind and rest position.
 #include "raycast_search.glsl"
 #include "lighting.glsl"
+#include "raycast_box.glsl"
 
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
-uniform vec3 u_boxLowest, u_boxHighest;
 uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
 
 #ifdef RAYCAST_PROBE
@@ -19,7 +19,7 @@ out vec4 o_colour;
 
 /// Where the ray is in the box: entry, exit.
 vec2 slab(vec3 from, vec3 along) {
-    vec3 low = (u_boxLowest - from) / along, high = (u_boxHighest - from) / along;
+    vec3 low = (boxLowest() - from) / along, high = (boxHighest() - from) / along;
     vec3 near = min(low, high), far = max(low, high);
     return vec2(max(near.x, max(near.y, near.z)), min(far.x, min(far.y, far.z)));
 }
@@ -27,7 +27,7 @@ vec2 slab(vec3 from, vec3 along) {
 void main() {
     vec3 along = u_eye.w > 0.0 ? normalize(v_position - u_eye.xyz) : -u_eye.xyz;
     along += vec3(equal(along, vec3(0.0))) * 1e-9;
-    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : v_position - length(u_boxHighest - u_boxLowest) * along;
+    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : v_position - length(boxHighest() - boxLowest()) * along;
     vec2 range = slab(from, along);
     range.x = max(range.x, 0.0);
     if (range.x >= range.y)

@@ -1,7 +1,7 @@
 #version 450 core
 // The box around what a deformation shader may show: its far faces, so that a camera inside of it sees, too.
 uniform mat4 u_clipFromLattice;
-uniform vec3 u_boxLowest, u_boxHighest; // object space: lattice units
+#include "raycast_box.glsl"
 
 out vec3 v_position;
 
@@ -14,6 +14,6 @@ void main() {
     bool turned = face % 2 == 0;
     at[(axis + (turned ? 2 : 1)) % 3] = float(corner & 1);
     at[(axis + (turned ? 1 : 2)) % 3] = float(corner >> 1);
-    v_position = mix(u_boxLowest, u_boxHighest, at);
+    v_position = mix(boxLowest(), boxHighest(), at);
     gl_Position = u_clipFromLattice * vec4(v_position, 1.0);
 }

@@ -10,6 +10,7 @@
 uniform float u_step;      // between samples, object space
 uniform float u_threshold; // SRS_SEARCH_THRESHOLD: nearer to the surface than this (object space) steps are short
 uniform float u_thickness; // of a shell, object space
+uniform float u_boxSize;   // longer than any way through the box: the distance where there is no tissue
 
 struct Place {
     float distance, body, mask; // signed distance of the surface; the same of the body that is drawn
@@ -22,6 +23,8 @@ Place placeAt(vec3 shown) {
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
     body = max(f, -u_thickness - f);
 #endif
+    if (!warped.covered)
+        f = body = u_boxSize;
     return Place(f, body, warped.mask, warped.rest);
 }
 

@@ -1,6 +1,9 @@
 // Warping and sampling of the deformation shader (CS07 sections 3.2, 3.3, eq. 2, 5): p = M(q + D(q)), q = M^-1 p'. Twin of
 // Warp in render/deformation_texture.cpp. Object space is the lattice's unit, texture space m.
 // Signs are ours: the field is negative inside, the mask 1 where kept (CS07: positive inside, A < 0 kept).
+#ifdef RAYCAST_LATTICE
+#include "raycast_lattice.glsl"
+#endif
 #ifdef RAYCAST_WARP
 uniform sampler3D t_displacement; // D / u_scale, A
 uniform float u_scale, u_bias;    // D = u_scale (texel - u_bias)
@@ -51,19 +54,27 @@ bool inBox(vec3 q) {
 #endif
 
 struct Warped {
-    vec3 rest;  // p
-    float mask; // A
+    vec3 rest;    // p
+    float mask;   // A
+    bool covered; // there can be tissue
 };
 
+/// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
 Warped warp(vec3 shown) {
+    bool tissue = true;
+#ifdef RAYCAST_LATTICE
+    vec4 moved = readLattice(shown);
+    tissue = covered(moved);
+    shown += moved.xyz;
+#endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), d.w);
+        return Warped(toObject(q + d.xyz), d.w, tissue);
     }
 #endif
-    return Warped(shown, 1.0);
+    return Warped(shown, 1.0, tissue);
 }
 
 #ifdef RAYCAST_WARP
@@ -82,27 +93,37 @@ void displacementGradient(vec3 q, out mat3 gradient, out vec3 mask) {
 
 /// dp / dp'
 mat3 warpJacobian(vec3 shown) {
+    mat3 first = mat3(1.0);
+#ifdef RAYCAST_LATTICE
+    first = latticeJacobian(shown);
+    shown += readLattice(shown).xyz;
+#endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         mat3 gradient;
         vec3 mask;
         displacementGradient(q, gradient, mask);
-        return mappingJacobian(q + readDisplacement(q).xyz) * (mat3(1.0) + gradient) * inverse(mappingJacobian(q));
+        return mappingJacobian(q + readDisplacement(q).xyz) * (mat3(1.0) + gradient) * inverse(mappingJacobian(q)) * first;
     }
 #endif
-    return mat3(1.0);
+    return first;
 }
 
 /// Of the mask in object space, by M's inverse transpose.
 vec3 maskGradient(vec3 shown) {
 #ifdef RAYCAST_WARP
+    mat3 first = mat3(1.0);
+#ifdef RAYCAST_LATTICE
+    first = latticeJacobian(shown);
+    shown += readLattice(shown).xyz;
+#endif
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         mat3 gradient;
         vec3 mask;
         displacementGradient(q, gradient, mask);
-        return transpose(inverse(mappingJacobian(q))) * mask;
+        return transpose(first) * (transpose(inverse(mappingJacobian(q))) * mask);
     }
 #endif
     return vec3(0.0);
