@@ -15,10 +15,10 @@ namespace serosa::gpu {
 
 namespace {
 
-constexpr GLenum kSamplers[] = {GL_SAMPLER_2D, GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D,
-                                GL_SAMPLER_2D_SHADOW, GL_SAMPLER_3D};
+constexpr GLenum kSamplers[] = {GL_SAMPLER_2D,        GL_INT_SAMPLER_2D, GL_UNSIGNED_INT_SAMPLER_2D,
+                                GL_SAMPLER_2D_SHADOW, GL_SAMPLER_3D,     GL_UNSIGNED_INT_SAMPLER_3D};
 constexpr GLenum kImages[] = {GL_IMAGE_2D, GL_INT_IMAGE_2D, GL_UNSIGNED_INT_IMAGE_2D,
-                              GL_UNSIGNED_INT_IMAGE_3D};
+                              GL_UNSIGNED_INT_IMAGE_3D, GL_IMAGE_3D};
 
 bool isSampler(GLenum type) {
     return std::find(std::begin(kSamplers), std::end(kSamplers), type) != std::end(kSamplers);
@@ -222,7 +222,7 @@ Program& Program::texture(const std::string& name, const Texture2D& texture) {
 }
 
 Program& Program::texture(const std::string& name, const Texture3D& texture) {
-    findTexture(name, {GL_SAMPLER_3D}, texture);
+    findTexture(name, {GL_SAMPLER_3D, GL_UNSIGNED_INT_SAMPLER_3D}, texture);
     return *this;
 }
 
@@ -240,9 +240,9 @@ Program& Program::image(const std::string& name, const Texture2D& texture, GLenu
 }
 
 Program& Program::image(const std::string& name, const Texture3D& texture, GLenum access) {
-    if (Input* input = findTexture(name, {GL_UNSIGNED_INT_IMAGE_3D}, texture)) {
+    if (Input* input = findTexture(name, {GL_UNSIGNED_INT_IMAGE_3D, GL_IMAGE_3D}, texture)) {
         input->imageAccess = access;
-        input->imageFormat = GL_R32UI;
+        input->imageFormat = input->type == GL_IMAGE_3D ? texture.format() : GL_R32UI;
     }
     return *this;
 }
@@ -301,7 +301,8 @@ void Program::use() const {
         SEROSA_CHECK(glIsTexture(input.textureId), name_ + ": the texture of input \"" + name + "\" is gone");
         const auto unit = static_cast<GLuint>(input.unit);
         if (isImage(input.type))
-            glBindImageTexture(unit, input.textureId, 0, input.type == GL_UNSIGNED_INT_IMAGE_3D, 0,
+            glBindImageTexture(unit, input.textureId, 0,
+                               input.type == GL_UNSIGNED_INT_IMAGE_3D || input.type == GL_IMAGE_3D, 0,
                                input.imageAccess, input.imageFormat);
         else
             glBindTextureUnit(unit, input.textureId);

@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 #include "gpu/label.h"
+#include "gpu/texture_format.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,13 +18,19 @@ std::size_t texelsOf(const glm::ivec3& size) {
 
 } // namespace
 
-Texture3D::Texture3D(const std::string& label, const glm::ivec3& size) : size_(size) {
+Texture3D::Texture3D(const std::string& label, const glm::ivec3& size) : Texture3D(label, GL_RGBA8, size) {}
+
+Texture3D::Texture3D(const std::string& label, GLenum format, const glm::ivec3& size)
+    : format_(format), size_(size) {
+    SEROSA_CHECK(findTextureFormat(format), label + ": a format that the table lacks");
     checkContext(label);
     SEROSA_CHECK(size.x > 0 && size.y > 0 && size.z > 0, label + ": a volume of nothing");
     glCreateTextures(GL_TEXTURE_3D, 1, &id_);
-    glTextureStorage3D(id_, 1, GL_RGBA8, size.x, size.y, size.z);
-    glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureStorage3D(id_, 1, format, size.x, size.y, size.z);
+    const GLint filter =
+        findTextureFormat(format)->kind == TexelKind::unsignedInteger ? GL_NEAREST : GL_LINEAR;
+    glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, filter);
     for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         glTextureParameteri(id_, wrap, GL_CLAMP_TO_EDGE);
     labelObject(GL_TEXTURE, id_, label);
@@ -31,6 +38,7 @@ Texture3D::Texture3D(const std::string& label, const glm::ivec3& size) : size_(s
 
 Texture3D& Texture3D::operator=(Texture3D&& other) noexcept {
     std::swap(id_, other.id_);
+    std::swap(format_, other.format_);
     std::swap(size_, other.size_);
     return *this;
 }
@@ -43,7 +51,20 @@ Texture3D::~Texture3D() {
 }
 
 std::size_t Texture3D::bytes() const {
-    return 4 * texelsOf(size_);
+    const std::size_t texel =
+        format_ == GL_RGBA8     ? 4
+        : format_ == GL_R16F    ? 2
+        : format_ == GL_RGBA16F ? 8
+                                : findTextureFormat(format_)->bytesPerTexel; // half floats travel as float32
+    return texel * texelsOf(size_);
+}
+
+void Texture3D::upload(GLenum layout, GLenum type, const void* data) {
+    glTextureSubImage3D(id_, 0, 0, 0, 0, size_.x, size_.y, size_.z, layout, type, data);
+}
+
+void Texture3D::download(GLenum layout, GLenum type, std::size_t bytes, void* data) const {
+    glGetTextureImage(id_, 0, layout, type, GLsizei(bytes), data);
 }
 
 void Texture3D::upload(const std::vector<std::uint32_t>& texels) {
@@ -58,7 +79,10 @@ std::vector<std::uint32_t> Texture3D::download() const {
 }
 
 void Texture3D::clear(std::uint32_t texel) {
-    glClearTexImage(id_, 0, GL_RGBA, GL_UNSIGNED_BYTE, &texel);
+    if (format_ == GL_R32UI)
+        glClearTexImage(id_, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &texel);
+    else
+        glClearTexImage(id_, 0, GL_RGBA, GL_UNSIGNED_BYTE, &texel);
 }
 
 TiledTexture::TiledTexture(const std::string& label, GLenum format, int width, int height,

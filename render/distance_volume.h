@@ -1,0 +1,56 @@
+#pragma once
+// Signed distance of a closed mesh in a 3D texture, made on the GPU (CS07 sections 3 and 6): negative inside.
+//
+// 1. Every triangle goes over the voxels that lie within the band of it and leaves its distance (an atomic
+//    minimum over the bits of a positive float), then its index where that distance was the least.
+// 2. A voxel of the band takes the distance to that triangle again; its sign is that of the angle-weighted
+//    normal of the face, edge or corner that is nearest (Baerentzen & Aanaes 2005, Signed distance
+//    computation using the angle weighted pseudonormal).
+// 3. All others take the triangle of the nearest voxel of the band, found by jump flooding (Rong & Tan 2006),
+//    and its sign: the straight way there stays on one side. Their distances are too large by at most
+//    half of a voxel's diagonal, what flooding misses apart.
+//
+// Exact (to float32 and the texture's half float) within the band. Lengths in voxels; voxel (i, j, k) has its
+// middle at lowest() + (i, j, k) step().
+
+#include "base/result.h"
+#include "gpu/sampled_texture.h"
+#include "sim/triangle_mesh.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace serosa::render {
+
+struct VolumeGrid {
+    glm::ivec3 size{0};
+    glm::dvec3 lowest{0}; // m: middle of voxel (0, 0, 0)
+    double step = 0;      // m
+
+    /// Holds the box with `margin` voxels around. \param samples along its longest side, margins apart
+    static VolumeGrid around(const glm::dvec3& lowest, const glm::dvec3& highest, int samples, int margin);
+};
+
+class DistanceVolume {
+public:
+    /// \param mesh m, closed, wound outward. \param grid the whole mesh or a part of it.
+    /// \param band m: distances are exact to here; at least two voxels are.
+    /// Errors: a mesh that is open (with an edge of it), 0 faces, of the shaders.
+    static Result<DistanceVolume> create(const sim::TriangleMesh& mesh, const VolumeGrid& grid, double band);
+
+    const VolumeGrid& grid() const { return grid_; }
+    /// R16F, voxels.
+    const gpu::Texture3D& texture() const { return texture_; }
+    /// As the texture holds them, m, x fastest. Waits.
+    std::vector<float> read() const;
+
+private:
+    VolumeGrid grid_;
+    gpu::Texture3D texture_;
+};
+
+/// The same in double on the processor: exact everywhere (sim/triangle_tree.h), m.
+std::vector<double> distanceOnGrid(const sim::TriangleMesh& mesh, const VolumeGrid& grid);
+
+} // namespace serosa::render

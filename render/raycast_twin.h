@@ -1,0 +1,40 @@
+#pragma once
+// The deformation shader on the processor, in double and with dense samples: what shaders/raycast_*.glsl is
+// tested against. Reads the same textures (the field as DistanceVolume::read gives it, the displacement as
+// DeformationTexture holds it).
+
+#include "render/deformation_texture.h"
+#include "render/raycaster.h"
+
+#include <vector>
+
+namespace serosa::render {
+
+class RaycastTwin {
+public:
+    /// \param field m, one a voxel of the grid. \param step between samples, m
+    RaycastTwin(std::vector<float> field, const VolumeGrid& grid, const Warp& warp, Solid solid,
+                double thickness, double step);
+
+    /// The first thing that a ray meets between two distances along it, m. Probe::t from `from` on.
+    RaycastProbe cast(const glm::dvec3& from, const glm::dvec3& along, double start, double end) const;
+    /// Signed distance at rest, m.
+    double field(const glm::dvec3& rest) const;
+
+private:
+    struct Place {
+        double distance = 0, body = 0, mask = 1;
+        glm::dvec3 rest{0};
+        bool matter() const { return body < 0 && mask >= 0.5; }
+    };
+    Place at(const glm::dvec3& shown) const;
+    glm::dvec3 fieldGradient(const glm::dvec3& rest) const;
+
+    std::vector<float> values_;
+    VolumeGrid grid_;
+    Warp warp_;
+    Solid solid_;
+    double thickness_, step_;
+};
+
+} // namespace serosa::render

@@ -1,0 +1,169 @@
+// See render/raycaster.h.
+#include "render/raycaster.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace serosa::render {
+
+namespace {
+
+GLenum glFormat(TexelFormat format) {
+    return format == TexelFormat::unorm8 ? GL_RGBA8 : format == TexelFormat::half ? GL_RGBA16F : GL_RGBA32F;
+}
+
+GLenum glType(TexelFormat format) {
+    return format == TexelFormat::unorm8 ? GL_UNSIGNED_BYTE
+           : format == TexelFormat::half ? GL_HALF_FLOAT
+                                         : GL_FLOAT;
+}
+
+} // namespace
+
+Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceVolume& volume) {
+    Raycaster made;
+    made.volume_ = &volume;
+    made.origin_ = lattice.toWorld(glm::dvec3(0));
+    made.unit_ = lattice.spacing;
+    made.empty_ = gpu::VertexArray("deformation shader");
+    made.setWarp(std::nullopt);
+    return made;
+}
+
+void Raycaster::setWarp(const std::optional<Warp>& warp) {
+    const VolumeGrid& grid = volume_->grid();
+    lowest_ = grid.lowest;
+    highest_ = grid.lowest + grid.step * glm::dvec3(grid.size - 1);
+    mapping_.reset();
+    if (!warp)
+        return;
+    const DeformationTexture& texture = *warp->texture;
+    mapping_ = warp->mapping;
+    displacement_ = gpu::Texture3D("displacement", glFormat(texture.format()), texture.size());
+    displacement_.upload(GL_RGBA, glType(texture.format()), texture.stored().data());
+    const bool bytes = texture.format() == TexelFormat::unorm8;
+    scale_ = texture.scale() * (bytes ? 255.0 / 127 : 1);
+    bias_ = bytes ? 128.0 / 255 : 0;
+    half_ = glm::vec3(texture.half());
+    // Of the deformed part: no further out than the longest displacement, and within the box. A box that is
+    // wound or turned: its corners and what lies between them, sampled.
+    constexpr int kSamples = 16;
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
+    double stretch = 0;
+    for (int z = 0; z <= kSamples; ++z)
+        for (int y = 0; y <= kSamples; ++y)
+            for (int x = 0; x <= kSamples; ++x) {
+                const glm::dvec3 q = (2.0 * glm::dvec3(x, y, z) / double(kSamples) - 1.0) * texture.half();
+                const glm::dvec3 p = mapping_->toObject(q);
+                low = glm::min(low, p);
+                high = glm::max(high, p);
+                const glm::dmat3 j = mapping_->jacobian(q);
+                stretch = std::max({stretch, glm::length(j[0]), glm::length(j[1]), glm::length(j[2])});
+            }
+    const double most = 1.8 * stretch * texture.largest(); // of three axes that need not be orthogonal
+    // A voxel more: what a box cuts off is seen to begin.
+    lowest_ = glm::min(lowest_, glm::max(low, lowest_ - most)) - grid.step;
+    highest_ = glm::max(highest_, glm::min(high, highest_ + most)) + grid.step;
+}
+
+Result<gpu::Program*> Raycaster::program(const Variant& variant) {
+    const auto found = programs_.find(variant);
+    if (found != programs_.end())
+        return &found->second;
+    std::vector<gpu::ShaderDefine> defines = {{"RAYCAST_SOLID", std::to_string(int(variant.solid))},
+                                              {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
+    if (variant.lattice)
+        defines.push_back({"RAYCAST_LATTICE", "1"});
+    if (variant.warped)
+        defines.push_back({"RAYCAST_WARP", "1"});
+    if (variant.probe)
+        defines.push_back({"RAYCAST_PROBE", "1"});
+    SEROSA_ASSIGN(gpu::Program made,
+                  gpu::Program::create(gpu::ShaderLibrary(), {"raycast.vert", "raycast.frag"}, defines));
+    return &programs_.emplace(variant, std::move(made)).first->second;
+}
+
+Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
+    SEROSA_ASSIGN(gpu::Program* const made,
+                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(), probe}));
+    gpu::Program& program = *made;
+    const VolumeGrid& grid = volume_->grid();
+    const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
+    program.set("u_clipFromLattice", frame.clipFromLattice);
+    if (lattice_)
+        lattice_->bind(program);
+    else
+        program.set("u_boxLowest", glm::vec3(toObject(lowest_)))
+            .set("u_boxHighest", glm::vec3(toObject(highest_)));
+    program.set("u_boxSize", float(glm::distance(lowest_, highest_) / unit_));
+    const double voxel = grid.step / unit_;
+    program.set("u_fieldLowest", glm::vec3(toObject(grid.lowest))).set("u_fieldStep", float(voxel));
+    program.texture("t_field", volume_->texture());
+    program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
+    program.set("u_thickness", float(look.thickness / unit_));
+    if (mapping_) {
+        glm::dmat4 objectFromWorld(1 / unit_);
+        objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
+        const glm::dmat4 objectFromLocal = objectFromWorld * mapping_->objectFromLocal;
+        program.set("u_objectFromLocal", glm::mat4(objectFromLocal));
+        program.set("u_localFromObject", glm::mat4(glm::inverse(objectFromLocal)));
+        program.set("u_cylinder", float(mapping_->cylinderRadius)).set("u_half", half_);
+        program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
+        program.texture("t_displacement", displacement_);
+    }
+    if (probe) {
+        program.set("u_eye", frame.eye);
+    } else {
+        frame.setLight(program);
+        program.set("u_skin", look.skin).set("u_inner", look.inner).set("u_flesh", look.flesh);
+    }
+    program.use();
+    glBindVertexArray(empty_.id());
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT); // the far faces: a camera may be inside
+    glDrawArrays(GL_TRIANGLES, 0, 36);
+    glCullFace(GL_BACK);
+    return {};
+}
+
+Status Raycaster::draw(const Frame& frame, const RaycastLook& look) {
+    return drawBox(frame, look, false);
+}
+
+Result<std::vector<RaycastProbe>> Raycaster::probe(const Frame& frame, const RaycastLook& look, int width,
+                                                   int height) {
+    gpu::Texture2D normals("probe: normals", GL_RGBA32F, width, height),
+        rests("probe: rest", GL_RGBA32F, width, height),
+        depth("probe: depth", GL_DEPTH_COMPONENT32F, width, height);
+    gpu::Framebuffer target("probe");
+    target.attach(GL_COLOR_ATTACHMENT0, normals);
+    target.attach(GL_COLOR_ATTACHMENT1, rests);
+    target.attach(GL_DEPTH_ATTACHMENT, depth);
+    target.setDrawBuffers(2);
+    normals.clear(glm::vec4(0));
+    rests.clear(glm::vec4(0));
+    target.bind(width, height);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    const Status drawn = drawBox(frame, look, true);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    SEROSA_TRY(drawn);
+    std::vector<glm::vec4> n(std::size_t(width) * std::size_t(height)), r(n.size());
+    normals.download(n.data(), n.size() * sizeof(glm::vec4));
+    rests.download(r.data(), r.size() * sizeof(glm::vec4));
+    std::vector<RaycastProbe> probes(n.size());
+    for (std::size_t i = 0; i < n.size(); ++i) {
+        const std::size_t row = std::size_t(height) - 1 - i / std::size_t(width),
+                          from = row * std::size_t(width) + i % std::size_t(width);
+        RaycastProbe& one = probes[i];
+        one.kind = int(r[from].w);
+        one.t = unit_ * n[from].w;
+        one.normal = glm::dvec3(n[from]);
+        one.rest = origin_ + unit_ * glm::dvec3(r[from]);
+    }
+    return probes;
+}
+
+} // namespace serosa::render

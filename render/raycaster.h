@@ -1,0 +1,93 @@
+#pragma once
+// The deformation shader (CS07; shaders/raycast.frag): a closed mesh as the zero set of its distance field,
+// warped back by a deformation texture, cut by its mask, found ray by ray in the pixel. Hollow, solid or a
+// shell.
+//
+// Object space is the lattice's (its unit and origin), so that the picture's Frame and the surface pass go
+// with it.
+
+#include "base/result.h"
+#include "gpu/handles.h"
+#include "gpu/program.h"
+#include "render/deformation_texture.h"
+#include "render/distance_volume.h"
+#include "render/frame.h"
+#include "render/lattice_warp.h"
+#include "shaders/raycast_constants.h"
+#include "sim/lattice.h"
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace serosa::render {
+
+enum class Solid { hollow = SRS_SOLID_HOLLOW, solid = SRS_SOLID_SOLID, shell = SRS_SOLID_SHELL };
+enum class Search {
+    linear = SRS_SEARCH_LINEAR,
+    threshold = SRS_SEARCH_THRESHOLD,
+    jacobian = SRS_SEARCH_JACOBIAN
+};
+
+struct RaycastLook {
+    Solid solid = Solid::solid;
+    Search search = Search::jacobian;
+    double step = 0.5;        // between samples, voxels of the distance field
+    double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
+    double thickness = 0.008; // of a shell, m
+    glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
+};
+
+/// What a pixel met.
+struct RaycastProbe {
+    enum Kind { nothing = 0, surface = 1, innerSide = 2, cutFace = 3 };
+    int kind = nothing;
+    double t = 0;                  // along the ray from the eye, m; orthographic: from the box's far face
+    glm::dvec3 normal{0}, rest{0}; // unit; m
+};
+
+class Raycaster {
+public:
+    /// \param volume outlives this
+    static Result<Raycaster> create(const sim::Lattice& lattice, const DistanceVolume& volume);
+
+    /// From now on; nothing: at rest. \param worldFromLocal of mapping: m
+    void setWarp(const std::optional<Warp>& warp);
+    /// The organ as its lattice has it, from now on; null: at rest. A warp then acts on the organ at rest.
+    /// \param lattice outlives this
+    void setLattice(const LatticeWarp* lattice) { lattice_ = lattice; }
+    /// Bounds of what may be drawn, m: the field's, and where the warp can take it; of a lattice: its own.
+    const glm::dvec3& lowest() const { return lowest_; }
+    const glm::dvec3& highest() const { return highest_; }
+
+    /// Draws into the bound target with its depth test. Errors: of the shaders, when first used.
+    Status draw(const Frame& frame, const RaycastLook& look);
+    /// What each pixel of a picture of this size meets, top row first. Waits.
+    Result<std::vector<RaycastProbe>> probe(const Frame& frame, const RaycastLook& look, int width,
+                                            int height);
+
+private:
+    struct Variant {
+        Solid solid;
+        Search search;
+        bool lattice, warped, probe;
+        auto operator<=>(const Variant&) const = default;
+    };
+    Raycaster() = default;
+    Result<gpu::Program*> program(const Variant& variant);
+    Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
+
+    const DistanceVolume* volume_ = nullptr;
+    const LatticeWarp* lattice_ = nullptr;
+    glm::dvec3 origin_{0}; // m: of object space
+    double unit_ = 1;      // m
+    gpu::Texture3D displacement_;
+    double scale_ = 1, bias_ = 0;
+    glm::vec3 half_{1};
+    std::optional<TextureMapping> mapping_; // m
+    glm::dvec3 lowest_{0}, highest_{0};
+    gpu::VertexArray empty_;
+    std::map<Variant, gpu::Program> programs_;
+};
+
+} // namespace serosa::render

@@ -1,0 +1,33 @@
+// First passes of render/lattice_warp.h: bounds of the nodes; WARP_FRAME: the voxels' box from them.
+#version 450 core
+#include "lattice_warp_box.glsl"
+#ifdef WARP_FRAME
+layout(local_size_x = 1) in;
+uniform ivec3 u_size;
+
+void main() {
+    for (int axis = 0; axis < 3; ++axis) {
+        float low = unordered(b_bound[axis]), high = unordered(b_bound[3 + axis]);
+        float size = max(high - low, 1e-6) / float(u_size[axis] - 3); // a voxel to spare on either side
+        b_step[axis] = size;
+        b_lowest[axis] = low - size;
+    }
+}
+#else
+layout(local_size_x = 64) in;
+layout(std430) restrict readonly buffer b_nodes { uint b_texel[]; };
+uniform sampler2D t_positions;
+uniform int u_nodes;
+
+void main() {
+    int node = int(gl_GlobalInvocationID.x);
+    if (node >= u_nodes)
+        return;
+    uint texel = b_texel[node];
+    vec3 at = texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0).xyz;
+    for (int axis = 0; axis < 3; ++axis) {
+        atomicMin(b_bound[axis], ordered(at[axis]));
+        atomicMax(b_bound[3 + axis], ordered(at[axis]));
+    }
+}
+#endif

@@ -1,0 +1,28 @@
+// Shared by C++ and GLSL: the deformation shader (render/raycaster.h) and its distance volume.
+#ifndef SRS_RAYCAST_CONSTANTS_H
+#define SRS_RAYCAST_CONSTANTS_H
+
+#define SRS_SPLAT_SLICES 8 // of the voxels around a triangle, a work item each
+
+// What a ray meets.
+#define SRS_SOLID_HOLLOW 0
+#define SRS_SOLID_SOLID 1
+#define SRS_SOLID_SHELL 2
+
+// How it is searched.
+#define SRS_SEARCH_LINEAR 0
+#define SRS_SEARCH_THRESHOLD 1
+#define SRS_SEARCH_JACOBIAN 2
+
+#define SRS_BISECTIONS 12     // of an interval in which a ray meets something
+#define SRS_MOST_SAMPLES 2048 // of a ray
+#define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
+#define SRS_MOST_STEP 2.0     // and never longer
+
+// The lattice's displacement texture (render/lattice_warp.h).
+#define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
+#define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
+#define SRS_WARP_STEPS 8            // Newton's
+#define SRS_WARP_GROUP 32
+
+#endif

@@ -1,0 +1,146 @@
+// Warping and sampling of the deformation shader (CS07 sections 3.2, 3.3, eq. 2, 5): p = M(q + D(q)), q = M^-1 p'. Twin of
+// Warp in render/deformation_texture.cpp. Object space is the lattice's unit, texture space m.
+// Signs are ours: the field is negative inside, the mask 1 where kept (CS07: positive inside, A < 0 kept).
+#ifdef RAYCAST_LATTICE
+#include "raycast_lattice.glsl"
+#endif
+#ifdef RAYCAST_WARP
+uniform sampler3D t_displacement; // D / u_scale, A
+uniform float u_scale, u_bias;    // D = u_scale (texel - u_bias)
+uniform vec3 u_half;              // of the box, texture space
+uniform mat4 u_localFromObject, u_objectFromLocal;
+uniform float u_cylinder;         // radius that the box is wound around; 0: it is not
+#endif
+uniform sampler3D t_field;        // signed distance, voxels
+uniform vec3 u_fieldLowest;       // middle of its first voxel, object space
+uniform float u_fieldStep;        // of a voxel, object space
+
+#ifdef RAYCAST_WARP
+vec3 toTexture(vec3 object) {
+    vec3 local = (u_localFromObject * vec4(object, 1.0)).xyz;
+    if (u_cylinder <= 0.0)
+        return local;
+    return vec3(length(local.xz) - u_cylinder, local.y, u_cylinder * atan(local.z, local.x));
+}
+
+vec3 toObject(vec3 q) {
+    vec3 local = q;
+    if (u_cylinder > 0.0) {
+        float phi = q.z / u_cylinder;
+        local = vec3((q.x + u_cylinder) * cos(phi), q.y, (q.x + u_cylinder) * sin(phi));
+    }
+    return (u_objectFromLocal * vec4(local, 1.0)).xyz;
+}
+
+/// d toObject / d q
+mat3 mappingJacobian(vec3 q) {
+    mat3 local = mat3(1.0);
+    if (u_cylinder > 0.0) {
+        float phi = q.z / u_cylinder, share = q.x / u_cylinder + 1.0;
+        local[0] = vec3(cos(phi), 0.0, sin(phi));
+        local[2] = vec3(-share * sin(phi), 0.0, share * cos(phi));
+    }
+    return mat3(u_objectFromLocal) * local;
+}
+
+vec4 readDisplacement(vec3 q) {
+    vec4 texel = texture(t_displacement, 0.5 * q / u_half + 0.5);
+    return vec4(u_scale * (texel.xyz - u_bias), texel.w);
+}
+
+bool inBox(vec3 q) {
+    return all(lessThanEqual(abs(q), u_half));
+}
+#endif
+
+struct Warped {
+    vec3 rest;    // p
+    float mask;   // A
+    bool covered; // there can be tissue
+};
+
+/// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
+Warped warp(vec3 shown) {
+    bool tissue = true;
+#ifdef RAYCAST_LATTICE
+    vec4 moved = readLattice(shown);
+    tissue = covered(moved);
+    shown += moved.xyz;
+#endif
+#ifdef RAYCAST_WARP
+    vec3 q = toTexture(shown);
+    if (inBox(q)) {
+        vec4 d = readDisplacement(q);
+        return Warped(toObject(q + d.xyz), d.w, tissue);
+    }
+#endif
+    return Warped(shown, 1.0, tissue);
+}
+
+#ifdef RAYCAST_WARP
+/// Central differences over a texel: columns of d D / d q, and of A.
+void displacementGradient(vec3 q, out mat3 gradient, out vec3 mask) {
+    vec3 texel = 2.0 * u_half / vec3(textureSize(t_displacement, 0));
+    for (int axis = 0; axis < 3; ++axis) {
+        vec3 by = vec3(0.0);
+        by[axis] = 0.5 * texel[axis];
+        vec4 slope = (readDisplacement(q + by) - readDisplacement(q - by)) / texel[axis];
+        gradient[axis] = slope.xyz;
+        mask[axis] = slope.w;
+    }
+}
+#endif
+
+/// dp / dp'
+mat3 warpJacobian(vec3 shown) {
+    mat3 first = mat3(1.0);
+#ifdef RAYCAST_LATTICE
+    first = latticeJacobian(shown);
+    shown += readLattice(shown).xyz;
+#endif
+#ifdef RAYCAST_WARP
+    vec3 q = toTexture(shown);
+    if (inBox(q)) {
+        mat3 gradient;
+        vec3 mask;
+        displacementGradient(q, gradient, mask);
+        return mappingJacobian(q + readDisplacement(q).xyz) * (mat3(1.0) + gradient) * inverse(mappingJacobian(q)) * first;
+    }
+#endif
+    return first;
+}
+
+/// Of the mask in object space, by M's inverse transpose.
+vec3 maskGradient(vec3 shown) {
+#ifdef RAYCAST_WARP
+    mat3 first = mat3(1.0);
+#ifdef RAYCAST_LATTICE
+    first = latticeJacobian(shown);
+    shown += readLattice(shown).xyz;
+#endif
+    vec3 q = toTexture(shown);
+    if (inBox(q)) {
+        mat3 gradient;
+        vec3 mask;
+        displacementGradient(q, gradient, mask);
+        return transpose(first) * (transpose(inverse(mappingJacobian(q))) * mask);
+    }
+#endif
+    return vec3(0.0);
+}
+
+/// Signed distance at rest, object space; beyond the volume at least the way to it.
+float field(vec3 rest) {
+    vec3 at = (rest - u_fieldLowest) / u_fieldStep, size = vec3(textureSize(t_field, 0));
+    vec3 within = clamp(at, vec3(0.0), size - 1.0);
+    float beyond = distance(at, within);
+    return u_fieldStep * (texture(t_field, (within + 0.5) / size).x + beyond);
+}
+
+/// Central differences over two voxels: over one, the bends of the trilinear field show as stripes.
+vec3 fieldGradient(vec3 rest) {
+    vec3 by = vec3(u_fieldStep, 0.0, 0.0);
+    return vec3(field(rest + by.xyy) - field(rest - by.xyy), field(rest + by.yxy) - field(rest - by.yxy),
+                field(rest + by.yyx) - field(rest - by.yyx)) /
+           (2.0 * u_fieldStep);
+}
