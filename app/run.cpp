@@ -266,9 +266,10 @@ private:
 
     void drawScene(int frame) {
         const double time = frame * frameTime_;
-        const render::View view{camera_, parts_.scene.light, parts_.scene.look,
-                                render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
-                                drawnThreads(parts_, player_.threads(), time)};
+        render::View view{camera_, parts_.scene.light, parts_.scene.look,
+                          render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
+                          drawnThreads(parts_, player_.threads(), time)};
+        view.casters = parts_.implicit.casters(parts_.textures());
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
     }

@@ -170,6 +170,20 @@ glm::dvec3 RunParts::highest() const {
     return bound;
 }
 
+/// An organ that is ray-cast.
+static Status prepareImplicit(RunParts& parts, std::size_t i) {
+    const OrganParts& organ = *parts.organs[i];
+    const sim::Organ& wanted = parts.scene.organs[i];
+    if (wanted.levels > 1)
+        return Error{parts.scene.file.string() +
+                     ": look.show = \"implicit\" needs organs of one level of detail, and " + wanted.name +
+                     " has " + std::to_string(wanted.levels)};
+    // Where nothing is simulated the lattice moves only by a pose.
+    return parts.implicit.add(parts.scene, organ.surface.metres, organ.lattice, organ.textures().layout(),
+                              !parts.scene.deformation || !wanted.fixed.empty() || wanted.pose ||
+                                  !parts.scene.tools.empty());
+}
+
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext) {
     SEROSA_TRY(readSceneAndSurfaces(options, parts));
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
@@ -203,6 +217,8 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
         if (parts.organs[i]->solver)
             SEROSA_TRY(parts.renderer->prepareCuts(i, parts.organs[i]->lattice,
                                                    parts.organs[i]->textures().layout()));
+    for (std::size_t i = 0; i < parts.organs.size() && parts.scene.look.show == sim::Show::implicit; ++i)
+        SEROSA_TRY(prepareImplicit(parts, i));
     SEROSA_TRY(makeGroup(parts));
     parts.levels.resize(parts.organs.size());
     for (std::size_t i = 0; i < parts.organs.size(); ++i)

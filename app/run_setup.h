@@ -4,6 +4,7 @@
 
 #include "app/contact_notes.h"
 #include "app/hands.h"
+#include "app/implicit_organs.h"
 #include "app/organ_coupling.h"
 #include "app/organ_levels.h"
 #include "app/organ_setup.h"
@@ -46,6 +47,7 @@ struct RunParts {
     std::vector<OrganLevels> levels;                 // one an organ: its levels of detail
     CoupledOrgans coupled;                           // those that step together
     std::optional<render::SurfaceRenderer> renderer; // draws them all, in the same order
+    ImplicitOrgans implicit;                         // where look.show asks for it
     std::vector<std::string> toolNotes; // of tools that would have begun inside (app/tool_entry.h)
     std::optional<Hands> hands;         // where they were asked for; their tools are the scene's last ones
     std::size_t timesLeftOut =

@@ -236,7 +236,9 @@ private:
             return;
         redraws_ = std::max(0, redraws_ - 1);
         lastDraw_ = Clock::now();
-        parts_.renderer->draw(parts_.textures(), currentView());
+        render::View view = currentView();
+        view.casters = parts_.implicit.casters(parts_.textures());
+        parts_.renderer->draw(parts_.textures(), view);
         glFinish();
         smooth(readings_.drawMs, 1e3 * secondsSince(lastDraw_));
         if (controls_.picture)

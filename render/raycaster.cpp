@@ -21,6 +21,15 @@ GLenum glType(TexelFormat format) {
 
 } // namespace
 
+RaycastLook raycastLook(const sim::Look& look) {
+    RaycastLook made;
+    made.solid = look.interior == sim::Interior::hollow  ? Solid::hollow
+                 : look.interior == sim::Interior::solid ? Solid::solid
+                                                         : Solid::shell;
+    made.thickness = look.shell;
+    return made;
+}
+
 Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceVolume& volume) {
     Raycaster made;
     made.volume_ = &volume;

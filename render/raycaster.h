@@ -15,6 +15,7 @@
 #include "render/lattice_warp.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
+#include "sim/scene.h"
 
 #include <map>
 #include <optional>
@@ -37,6 +38,9 @@ struct RaycastLook {
     double thickness = 0.008; // of a shell, m
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
+
+/// What a scene's look says of it; the rest as above.
+RaycastLook raycastLook(const sim::Look& look);
 
 /// What a pixel met.
 struct RaycastProbe {

@@ -7,6 +7,7 @@
 #include "render/lamp_shadow.h"
 #include "render/lattice_overlay.h"
 #include "render/picture_target.h"
+#include "render/raycaster.h"
 #include "render/screen_occlusion.h"
 #include "render/surface_passes.h"
 #include "render/tool_renderer.h"
@@ -214,7 +215,7 @@ void SurfaceRenderer::Impl::drawDepths(const OrganStates& states, const View& vi
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < organs.size(); ++i) {
         frames.push_back(makeFrame(organs[i].placement, camera, view.light, view.look, width, height));
-        if (view.look.surface)
+        if (view.look.surface && view.look.show == sim::Show::surface)
             organs[i].surface.drawDepth(*states[i], frames[i], stageOf(view.look.mapping));
     }
     std::vector<DrawnShape> solid; // floors fade out: they throw no shadow
@@ -287,7 +288,12 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
         in.organs[i].surface.draw(*states[i], frames[i], SurfaceStage::nodes, sim::SurfaceColour::tissue,
                                   kCoreColour);
     glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
-    for (std::size_t i = 0; i < in.organs.size() && view.look.surface; ++i)
+    const bool implicit = view.look.show == sim::Show::implicit;
+    for (std::size_t i = 0; i < view.casters.size() && implicit; ++i) {
+        const Status drawn = view.casters[i]->draw(frames[i], raycastLook(view.look));
+        SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5");
+    }
+    for (std::size_t i = 0; i < in.organs.size() && view.look.surface && !implicit; ++i)
         in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     std::vector<const sim::Lattice*> placements;

@@ -21,6 +21,8 @@
 
 namespace serosa::render {
 
+class Raycaster; // render/raycaster.h
+
 /// What is drawn in one picture.
 struct View {
     CameraView camera;
@@ -29,6 +31,7 @@ struct View {
     std::vector<DrawnShape> shapes;   // tools and bodies (render/tool_shapes.h)
     std::vector<DrawnThread> threads; // between organs, drawn where tools are
     bool wireframe = false;           // the surface as the edges of its front faces
+    std::vector<Raycaster*> casters = {}; // one an organ, drawn in place of surfaces if look.show says so
     bool cull = true;                 // skip what cannot be seen of the surface (render/surface_clusters.h)
     double surfaceError = 0.5; // pixels that a level of detail of it may be off by; 0: the whole surface
 };

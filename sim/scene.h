@@ -114,7 +114,15 @@ inline constexpr Mapping kSurfaceMappings[] = {Mapping::triangle,  Mapping::curv
                                                Mapping::chosen,    Mapping::normalOffset,
                                                Mapping::trilinear, Mapping::nodeFrames};
 enum class SurfaceColour { tissue, dynamicNormal, material, plain };
+/// What an organ is drawn as: its surface, or its distance field, ray-cast (docs/methods/raycast.md).
+enum class Show { surface, implicit };
+/// What is in it, where it is ray-cast.
+enum class Interior { hollow, solid, shell };
 struct Look {
+    Show show = Show::surface;
+    Interior interior = Interior::solid;
+    double shell = 0.008;  // m: its thickness
+    int fieldSamples = 96; // of the distance field, along the organ's longest side
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn
@@ -123,6 +131,20 @@ struct Look {
     bool shadows = false;                               // of organs and tools under the key light
     bool occlusion = false; // of the surround, found in the picture (beside what each vertex has baked in)
     bool blood = true;      // a film of it beside fresh cuts
+};
+
+/// A closed-form deformation of what is ray-cast (render/deformation_map.h has the maps).
+enum class DeformationKind { twist, bend, pull, peel, wave, knife, seam };
+struct Deformation {
+    DeformationKind kind = DeformationKind::twist;
+    glm::dvec3 at{0}, size{0};                           // of its box: middle, lengths along its own axes, m
+    glm::dvec3 up{0, 1, 0}, along{1, 0, 0};              // its own y and x axis, world; orthonormal
+    double amount = 0;                                   // rad (twist, bend) or m
+    double radius = 0, extent = 0, depth = 0, width = 0; // m
+    bool narrow = false;                                 // of a pull
+    double wound = 0; // m: radius of the cylinder that its box is wound around; 0: none
+    glm::ivec3 texels{64};
+    int line = 0; // of the scene file
 };
 
 enum class ImageFormat { nrrd, mha };
@@ -149,7 +171,8 @@ struct Scene {
     std::vector<Tool> tools;
     std::vector<Body> bodies;
     std::vector<Thread> threads;
-    std::vector<Cut> cuts; // of every organ
+    std::vector<Cut> cuts;                  // of every organ
+    std::optional<Deformation> deformation; // of all that is ray-cast
     Camera camera;
     Light light;
     Look look;

@@ -104,6 +104,8 @@ std::vector<SceneKey> generalKeys() {
         plain("", "camera", Kind::table, kAny, "", "how it is looked at"),
         plain("", "light", Kind::table, kAny, "", "how it is lit"),
         plain("", "look", Kind::table, kAny, "", "what is drawn"),
+        plain("", "deformation", Kind::table, kAny, "",
+              "a deformation of what is ray-cast; needs look.show = \"implicit\""),
         plain("", "output", Kind::table, kAny, "", "what is written"),
 
         plain("organ", "name", Kind::text, kAny, "\"organ\"",
@@ -364,6 +366,14 @@ std::vector<SceneKey> otherKeys() {
              "what the surface is coloured by; material: by the material of the cell at each vertex; plain: "
              "its own "
              "colour, evenly lit by the key light alone"),
+        word("look", "show", {"surface", "implicit"}, "\"surface\"",
+             "what is drawn of organs: the surface, or its distance field, ray-cast "
+             "(docs/methods/raycast.md)"),
+        word("look", "interior", {"hollow", "solid", "shell"}, "\"solid\"",
+             "implicit: what is seen where it is cut open"),
+        quantity("look", "shell", Dim::length, kPositive, "\"8 mm\"", "implicit: thickness of a shell"),
+        plain("look", "field_samples", Kind::integer, {16, 512}, "96",
+              "implicit: samples of the distance field along the organ's longest side"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw tools, bodies and threads"),
@@ -401,6 +411,33 @@ std::vector<SceneKey> otherKeys() {
     };
 }
 
+std::vector<SceneKey> deformationKeys() {
+    return {
+        word("deformation", "kind", {"twist", "bend", "pull", "peel", "wave", "knife", "seam"}, nullptr,
+             "which map (docs/methods/raycast.md)"),
+        quantity("deformation", "at", Dim::length, kAny, nullptr, "middle of its box", Kind::quantity3),
+        quantity("deformation", "size", Dim::length, kPositive, nullptr,
+                 "lengths of its box along its own axes", Kind::quantity3),
+        plain("deformation", "up", Kind::number3, kAny, "[0, 1, 0]", "its own y axis, any length"),
+        plain("deformation", "along", Kind::number3, kAny, "[1, 0, 0]",
+              "its own x axis, as far as `up` leaves it"),
+        quantity("deformation", "angle", Dim::angle, {-5000, 5000}, "", "twist, bend: how far"),
+        quantity(
+            "deformation", "amount", Dim::length, kAny, "",
+            "pull, wave: how high; knife, seam: half of the opening; peel: the line to which it is peeled"),
+        quantity("deformation", "radius", Dim::length, kPositive, "", "pull: of the bump; peel: of the roll"),
+        quantity("deformation", "extent", Dim::length, kPositive, "",
+                 "bend: the range that turns; wave: its length; knife, seam: the cut's"),
+        quantity("deformation", "depth", Dim::length, kPositive, "",
+                 "knife, seam: of the cut; peel: of the ground above the box's bottom"),
+        quantity("deformation", "width", Dim::length, kPositive, "", "peel: of the flap"),
+        plain("deformation", "narrow", Kind::boolean, kAny, "false", "pull: ends at its radius"),
+        quantity("deformation", "wound", Dim::length, kPositive, "",
+                 "the box is wound around a cylinder of this radius about its y axis: round cuts"),
+        plain("deformation", "texels", Kind::integer3, {1, 512}, "[64, 64, 64]", "of its texture"),
+    };
+}
+
 std::vector<SceneKey> makeKeys() {
     std::vector<SceneKey> keys = generalKeys();
     add(keys, organKeys());
@@ -408,6 +445,7 @@ std::vector<SceneKey> makeKeys() {
     add(keys, bodyKeys());
     add(keys, threadKeys());
     add(keys, otherKeys());
+    add(keys, deformationKeys());
     return keys;
 }
 

@@ -2,6 +2,7 @@
 // follow each table.
 
 #include "sim/scene_reader_coupling.h"
+#include "sim/scene_reader_deformation.h"
 #include "sim/scene_reader_organ.h"
 #include "sim/scene_reader_tools.h"
 #include "sim/scene_table.h"
@@ -113,6 +114,10 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.checkKeys());
     SEROSA_TRY(look.readWord("mapping", scene.look.mapping));
     SEROSA_TRY(look.readWord("colour", scene.look.colour));
+    SEROSA_TRY(look.readWord("show", scene.look.show));
+    SEROSA_TRY(look.readWord("interior", scene.look.interior));
+    SEROSA_TRY(look.read("shell", scene.look.shell));
+    SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));
@@ -203,6 +208,7 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     SEROSA_ASSIGN(const toml::table* light, top.table("light"));
     SEROSA_ASSIGN(const toml::table* look, top.table("look"));
     SEROSA_TRY(readLightAndLook({source, "light", "light", light}, {source, "look", "look", look}, scene));
+    SEROSA_TRY(readDeformation(source, top, scene));
     SEROSA_ASSIGN(const toml::table* outputTable, top.table("output"));
     const SceneTable output(source, "output", "output", outputTable);
     SEROSA_TRY(readOutput(output, scene));
