@@ -133,8 +133,8 @@ public:
     /// Deformed unit normals, in mesh order, from the same stage.
     std::vector<glm::dvec3> readDeformedNormals(const sim::StateTextures& state, sim::Mapping mapping);
 
-    /// The axes that turn with each vertex (T, N, B of the triangle bases, the lattice's axes of node
-    /// frames), as columns, in mesh order; none of trilinear. Errors: of the shader.
+    /// The axes that turn with each vertex (T, N, B of the triangle bases; the lattice's, turned, of the
+    /// other mappings), as columns, in mesh order. Errors: of the shader.
     Result<std::vector<glm::dmat3>> readAxes(const sim::StateTextures& state, sim::Mapping mapping);
 
     /// For benchmarks: the indexed triangles with GL_RASTERIZER_DISCARD; nothing is drawn.

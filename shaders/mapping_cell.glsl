@@ -25,7 +25,8 @@ Mapped mapVertex() {
     mapped.normal = n.x * cross(dy, dz) + n.y * cross(dz, dx) + n.z * cross(dx, dy);
     mapped.normal = dot(mapped.normal, mapped.normal) > 0.0 ? normalize(mapped.normal) : n; // a cell without volume
     mapped.dynamicNormal = mapped.normal;
-    mapped.axes = mat3(1.0);
+    vec3 z = cross(dx, dy); // J's columns made orthonormal, the first one's direction kept
+    mapped.axes = dot(z, z) > 0.0 ? mat3(normalize(dx), normalize(cross(z, dx)), normalize(z)) : mat3(1.0);
     mapped.turn = mat3(dx, dy, dz);
     return mapped;
 }

@@ -84,13 +84,12 @@ Status measureNormals(CheckList& checks) {
 }
 
 /// Tangent frames of the vertex stage in a strong bend: of unit length, at right angles, N x T = B (so that
-/// T, N, B of MS05 are a left hand's); node frames are a right hand's axes.
+/// T, N, B of MS05 are a left hand's); the lattice's axes, which node frames and trilinear turn, are a right
+/// hand's.
 Status measureAxes(CheckList& checks) {
     SEROSA_ASSIGN(const SurfaceCase shape, surfaceCase("dragon", 10000, 0, 0.062));
     const auto move = [&](const glm::dvec3& q) { return render::bend(q, {}, 3); };
     for (const Mapping mapping : sim::kSurfaceMappings) {
-        if (mapping == Mapping::trilinear)
-            continue; // has no frame
         SEROSA_ASSIGN(MappedStage stage,
                       MappedStage::create(shape.lattice, shape.mesh,
                                           render::bindSurface(shape.lattice, shape.mesh, mapping)));
@@ -103,7 +102,8 @@ Status measureAxes(CheckList& checks) {
                 for (int j = 0; j < 3; ++j)
                     if (!(std::abs(rest[i][j]) <= worst))
                         worst = std::abs(rest[i][j]);
-            const double hand = mapping == Mapping::nodeFrames ? 1 : -1;
+            const bool latticeAxes = mapping == Mapping::nodeFrames || mapping == Mapping::trilinear;
+            const double hand = latticeAxes ? 1 : -1;
             if (!(std::abs(glm::determinant(a) - hand) <= worst))
                 worst = std::abs(glm::determinant(a) - hand);
         }
