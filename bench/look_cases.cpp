@@ -55,7 +55,9 @@ double secondsOf(const std::function<void()>& what) {
 Status benchLook(const Options& options, Report& report) {
     SEROSA_ASSIGN(const sim::TriangleMesh* heart, heartSurface());
     const sim::TriangleMesh fine = refined(*heart);
-    SEROSA_ASSIGN(const sim::Lattice lattice, sim::buildLattice(*heart, {.nodes = kNodes}));
+    sim::LatticeRequest request;
+    request.nodes = kNodes;
+    SEROSA_ASSIGN(const sim::Lattice lattice, sim::buildLattice(*heart, request));
     SEROSA_ASSIGN(const sim::StateTextures state, sim::StateTextures::create(lattice, {}));
     render::SurfaceBinding binding;
     const double bindSeconds =
@@ -64,7 +66,8 @@ Status benchLook(const Options& options, Report& report) {
     const double uploadSeconds = secondsOf([&] {
         made = render::SurfaceRenderer::create(lattice, fine, binding, state, kPictureSize, kPictureSize);
     });
-    SEROSA_TRY(made);
+    if (!made)
+        return made.error();
     render::SurfaceRenderer renderer = std::move(made).value();
     const render::SurfaceDetail detail{render::makeTissue(sim::TissueTexture::heartMuscle, 0.024, 0.0004),
                                        0.024, 0.0004};

@@ -31,7 +31,7 @@ uniform vec4 u_section; // plane, lattice units; 0: none
 
 out vec4 o_colour;
 
-const vec3 kInnerColour = vec3(0.36, 0.045, 0.035); // flesh, seen through a cut
+const vec3 kInnerColour = vec3(0.24, 0.030, 0.023); // flesh, seen through a cut
 const float kInnerOpen = 0.6;                       // of the surround, in there
 const vec3 kCutColour = vec3(0.42, 0.085, 0.07);    // flesh, evenly lit: one plane
 const vec3 kBlood = vec3(0.090, 0.0040, 0.0030);

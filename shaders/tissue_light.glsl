@@ -62,7 +62,7 @@ vec3 tissueLight(Tissue t, vec3 v) {
 
 #ifndef SURFACE_NODES // eq. 3 on the lattice's steps is too rough to shine
     vec3 h = normalize(v + u_toKey);
-    float ldh = max(dot(u_toKey, h), 0.0), lit = max(ndl, 0.0) * shade.y * u_key * t.open;
+    float ldh = max(dot(u_toKey, h), 0.0), lit = max(ndl, 0.0) * shade.y * u_key * t.open * (t.inside ? 0.2 : 1.0);
     colour += kKeyColour * (0.09 * lit * ggx(t.roughness * t.roughness, max(dot(n, h), 0.0), ldh));
     colour *= (1.0 - fresnel(mirror, ndv)) * 1.03; // 1.03: as bright as without a film, seen from straight above
     colour += studio(reflect(-v, t.film), mix(0.1, 0.03, t.blood)) *

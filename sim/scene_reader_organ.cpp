@@ -29,9 +29,9 @@ Status readLook(const SceneTable& table, const fs::path& folder, OrganLook& look
     SEROSA_TRY(table.readWord("texture", look.texture));
     const auto picture = [&](const char* key, fs::path& file, int& line) -> Status {
         std::string name;
-        SEROSA_TRY(table.read(key, name));
         if (!table.has(key))
             return {};
+        SEROSA_TRY(table.read(key, name));
         if (look.texture != TissueTexture::none)
             return table.errorAt(key, "stands beside 'texture': keep one of the two");
         file = fs::path(name).is_absolute() ? fs::path(name) : folder / name;
@@ -45,11 +45,13 @@ Status readLook(const SceneTable& table, const fs::path& folder, OrganLook& look
     SEROSA_TRY(picture("albedo", look.albedo, look.albedoLine));
     SEROSA_TRY(picture("normal", look.normal, look.normalLine));
     SEROSA_TRY(picture("height", look.height, look.heightLine));
-    for (const char* key : {"tile", "relief"})
-        if (table.has(key) && !look.textured())
-            return table.errorAt(key, "has no effect without a texture or a picture: remove it");
     SEROSA_TRY(table.read("tile", look.tile));
     SEROSA_TRY(table.read("relief", look.relief));
+    const OrganLook plain;
+    for (const auto& [key, differs] :
+         {std::pair{"tile", look.tile != plain.tile}, {"relief", look.relief != plain.relief}})
+        if (differs && !look.textured())
+            return table.errorAt(key, "has no effect without a texture or a picture: remove it");
     return {};
 }
 

@@ -187,7 +187,7 @@ TEST(Snapshot, fileIsAsTheDocumentSays) {
     snapshot.frameRate = 60;
     std::string bytes = sim::snapshotBytes(snapshot);
     const char expected[] = "\x89SRS\r\n\x1a\n"
-                            "\x03\0\0\0"
+                            "\x04\0\0\0"
                             "\x48\0\0\0\0\0\0\0"
                             "\x03\0\0\0"
                             "0.1"
