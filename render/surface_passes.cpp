@@ -184,8 +184,8 @@ void SurfacePasses::setIndices(const std::vector<std::uint32_t>& indices) {
                        {}});
 }
 
-Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const SurfaceBinding& binding, const sim::TextureLayout& layout) {
+void SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                   const SurfaceBinding& binding, const sim::TextureLayout& layout) {
     const CacheOrder order = cacheOrder(drawn_.faces, drawn_.origin.size());
     newIndex_ = order.newIndex;
     const glm::vec3 mean = textures_ ? 1.0F / textures_->albedoScale : glm::vec3(0);
@@ -210,9 +210,8 @@ Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::Tri
     geometry.array.attribute(4, geometry.vertices, 4, GL_UNSIGNED_BYTE, true, stride,
                              offsetof(StaticVertex, colour));
     setIndices(order.indices);
-    SEROSA_TRY(createLevels(lattice, metres, binding, layout, order.indices));
+    createLevels(lattice, metres);
     createNodes(lattice.boundary, layout);
-    return {};
 }
 
 /// One-to-one: the boundary's triangles, one vertex a surface node.
@@ -254,7 +253,7 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     passes.anyConstant_ = !corrected || binding.constantVertices > 0;
     SEROSA_ASSIGN(passes.programs_, passes.compile(gpu::ShaderLibrary()));
     SEROSA_TRY(passes.createCaptures());
-    SEROSA_TRY(passes.createGeometry(lattice, metres, binding, layout));
+    passes.createGeometry(lattice, metres, binding, layout);
     if (detail) {
         passes.createRest(lattice, metres, binding);
         passes.createUvs();

@@ -51,6 +51,10 @@ public:
     /// The same vertex stage with nothing rasterized.
     void drawDiscarded(const sim::StateTextures& state, SurfaceStage stage);
 
+    /// Clusters of the uncut surface and of its levels of detail, for Frame::cull; the arguments are those of
+    /// create. Errors: of SurfaceClusters::create.
+    Status prepareSkipping(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                           const SurfaceBinding& binding, const sim::TextureLayout& layout);
     /// Triangles of the last draw() that were not skipped; reads back.
     std::size_t trianglesDrawn() const;
     std::size_t levels() const { return levels_.size(); }
@@ -115,16 +119,14 @@ private:
     void createUvs();
     void attachUvs();
     std::vector<gpu::ShaderDefine> defines(SurfaceStage stage) const;
-    Status createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                          const SurfaceBinding& binding, const sim::TextureLayout& layout);
+    void createGeometry(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                        const SurfaceBinding& binding, const sim::TextureLayout& layout);
     void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage, std::size_t level);
-    /// Levels of detail of the uncut surface, and clusters of each. Errors: of SurfaceClusters::create.
-    Status createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                        const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                        const std::vector<std::uint32_t>& indices);
+    /// Levels of detail of the uncut surface.
+    void createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
     std::size_t levelFor(const Frame& frame) const;
     void drawClusters(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                       std::size_t level, const gpu::Program& program);
