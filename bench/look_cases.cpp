@@ -69,6 +69,7 @@ Status benchLook(const Options& options, Report& report) {
     if (!made)
         return made.error();
     render::SurfaceRenderer renderer = std::move(made).value();
+    SEROSA_TRY(renderer.prepareSkipping(0, lattice, fine, binding, state));
     const render::SurfaceDetail detail{render::makeTissue(sim::TissueTexture::heartMuscle, 0.024, 0.0004),
                                        0.024, 0.0004};
     SEROSA_ASSIGN(render::SurfaceRenderer textured,

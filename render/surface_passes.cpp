@@ -222,7 +222,7 @@ Status SurfacePasses::createGeometry(const sim::Lattice& lattice, const sim::Tri
     }
     createStatic(lattice, metres);
     setIndices(order.indices);
-    SEROSA_TRY(createLevels(lattice, metres, bindings.front(), layout, order.indices));
+    createLevels(lattice, metres);
     createNodes(lattice.boundary, layout);
     return {};
 }

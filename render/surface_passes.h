@@ -58,6 +58,10 @@ public:
     /// The same vertex stage with nothing rasterized.
     void drawDiscarded(const sim::StateTextures& state, SurfaceStage stage);
 
+    /// Clusters of the uncut surface and of its levels of detail, for Frame::cull; the arguments are those of
+    /// create. Errors: of SurfaceClusters::create.
+    Status prepareSkipping(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                           const SurfaceBinding& binding, const sim::TextureLayout& layout);
     /// Triangles of the last draw() that were not skipped; reads back.
     std::size_t trianglesDrawn() const;
     std::size_t levels() const { return levels_.size(); }
@@ -144,10 +148,8 @@ private:
     gpu::Program& prepare(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                           sim::SurfaceColour colour, const glm::vec3& bare);
     void drawTriangles(SurfaceStage stage, std::size_t level);
-    /// Levels of detail of the uncut surface, and clusters of each. Errors: of SurfaceClusters::create.
-    Status createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                        const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                        const std::vector<std::uint32_t>& indices);
+    /// Levels of detail of the uncut surface.
+    void createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
     std::size_t levelFor(const Frame& frame) const;
     void drawClusters(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,
                       std::size_t level, const gpu::Program& program);

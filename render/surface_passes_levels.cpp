@@ -13,8 +13,6 @@ namespace serosa::render {
 
 namespace {
 
-constexpr std::size_t kLeastForClusters = 2000; // faces: fewer are drawn faster than asked for
-
 /// Triangles that lie together one after another, each cluster in the order that suits the vertex cache.
 std::vector<std::uint32_t> inClusters(const std::vector<std::uint32_t>& indices,
                                       const std::vector<glm::vec3>& positions) {
@@ -44,9 +42,7 @@ std::vector<std::uint32_t> inClusters(const std::vector<std::uint32_t>& indices,
 
 } // namespace
 
-Status SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                   const SurfaceBinding& binding, const sim::TextureLayout& layout,
-                                   const std::vector<std::uint32_t>& indices) {
+void SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::TriangleMesh& metres) {
     std::vector<glm::dvec3> positions;
     for (const std::uint32_t v : drawn_.origin)
         positions.push_back(metres.positions[v]);
@@ -62,20 +58,19 @@ Status SurfacePasses::createLevels(const sim::Lattice& lattice, const sim::Trian
                            {},
                            {}});
     }
+}
+
+Status SurfacePasses::prepareSkipping(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                      const SurfaceBinding& binding, const sim::TextureLayout& layout) {
     std::vector<std::uint32_t> meshVertex(newIndex_.size());
     std::vector<glm::vec3> bufferPositions(newIndex_.size());
     for (std::size_t i = 0; i < newIndex_.size(); ++i) {
         meshVertex[newIndex_[i]] = drawn_.origin[i];
-        bufferPositions[newIndex_[i]] = glm::vec3(lattice.toLattice(positions[i]));
+        bufferPositions[newIndex_[i]] = glm::vec3(lattice.toLattice(metres.positions[drawn_.origin[i]]));
     }
     for (Level& level : levels_) {
-        if (std::size_t(level.count) < 3 * kLeastForClusters ||
-            lattice.cells.empty()) // or nodes from elsewhere
-            continue;
-        std::vector<std::uint32_t> own = indices;
-        own.resize(std::size_t(level.count));
-        if (&level != &levels_.front())
-            level.indices.download(0, own.size() * sizeof own[0], own.data());
+        std::vector<std::uint32_t> own(std::size_t(level.count));
+        level.indices.download(0, own.size() * sizeof own[0], own.data());
         own = inClusters(own, bufferPositions);
         level.clusterIndices = gpu::Buffer("surface indices", std::span<const std::uint32_t>(own));
         std::vector<glm::uvec3> faces;

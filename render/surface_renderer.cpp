@@ -311,6 +311,12 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
     in.target.end();
 }
 
+Status SurfaceRenderer::prepareSkipping(std::size_t organ, const sim::Lattice& lattice,
+                                        const sim::TriangleMesh& metres, const SurfaceBinding& binding,
+                                        const sim::StateTextures& state) {
+    return impl_->organs.at(organ).surface.prepareSkipping(lattice, metres, binding, state.layout());
+}
+
 Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& lattice,
                                     const sim::TextureLayout& layout) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;

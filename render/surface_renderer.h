@@ -28,11 +28,11 @@ struct View {
     CameraView camera;
     sim::Light light;
     sim::Look look;
-    std::vector<DrawnShape> shapes;   // tools and bodies (render/tool_shapes.h)
-    std::vector<DrawnThread> threads; // between organs, drawn where tools are
-    bool wireframe = false;           // the surface as the edges of its front faces
+    std::vector<DrawnShape> shapes;       // tools and bodies (render/tool_shapes.h)
+    std::vector<DrawnThread> threads;     // between organs, drawn where tools are
+    bool wireframe = false;               // the surface as the edges of its front faces
     std::vector<Raycaster*> casters = {}; // one an organ, drawn in place of surfaces if look.show says so
-    bool cull = true;                 // skip what cannot be seen of the surface (render/surface_clusters.h)
+    bool cull = false;         // skip what cannot be seen (prepareSkipping); saves nothing in software
     double surfaceError = 0.5; // pixels that a level of detail of it may be off by; 0: the whole surface
 };
 
@@ -87,6 +87,11 @@ public:
     /// Sets it again; the frame follows.
     void setBlend(std::size_t organ, sim::Mapping mapping, const std::vector<float>& blend, double finest);
 
+    /// Makes clusters of an organ's surface, which View::cull asks for: skipped where they cannot be seen
+    /// (render/surface_clusters.h). The arguments are those that the organ was added with. Errors: of the
+    /// shader.
+    Status prepareSkipping(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                           const SurfaceBinding& binding, const sim::StateTextures& state);
     /// Makes an organ's mask (render/cut_mask.h) before the first stroke does. Errors: of CutMask::create.
     Status prepareCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TextureLayout& layout);
     /// Paints a stroke into an organ's mask, made by the first one, with the organ as `state` has it. Errors:

@@ -173,6 +173,10 @@ TEST_F(GlLook, OcclusionDarkensWhatLiesCloseTogether) {
 // What is skipped cannot be seen: not a byte differs, from afar and from near, at rest and bent.
 TEST_F(GlLook, SkippedClustersCannotBeSeen) {
     prepare(72); // 62,208 faces
+    ASSERT_TRUE(renderer_
+                    ->prepareSkipping(0, lattice_, mesh_,
+                                      bindSurface(lattice_, mesh_, sim::Mapping::curvature), *state_)
+                    .ok());
     view_.surfaceError = 0;
     const glm::dvec3 at = lattice_.toLattice(middle_);
     for (const double bend : {0.0, 0.04}) {
