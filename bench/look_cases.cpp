@@ -115,8 +115,8 @@ Status benchLook(const Options& options, Report& report) {
                    std::to_string(fine.positions.size()) + " vertices) on " +
                    std::to_string(lattice.nodeCount()) + " nodes, 1024 x 1024");
     report.line("Bound in " + figure(bindSeconds) + " s, made ready in " + figure(uploadSeconds) + " s; " +
-                std::to_string(render::SurfaceRenderer::bytesPerVertex()) + " bytes a vertex; " +
-                figure(misses) + " vertices a triangle through a cache of 32.");
+                std::to_string(int(binding.bytesPerVertex)) + " bytes a vertex; " + figure(misses) +
+                " vertices a triangle through a cache of 32.");
     std::vector<std::vector<std::string>> rows;
     for (const std::vector<std::string>& row : triangles)
         rows.push_back({row[0], row[1], figure(rounds.milliseconds(row[0]))});
