@@ -64,8 +64,11 @@ std::optional<LevelState> LevelState::parse(std::string_view bytes, const RunPar
         state.details.push_back(std::move(detail));
     }
     state.blend.resize(in.count(in.u64(), 4));
-    if (!state.blend.empty() &&
-        state.blend.size() != 6 * parts.organs[organ]->surface.metres.positions.size())
+    // Seams of textures and copies along cuts are vertices, too: how many, the drawing knows once it shows
+    // them.
+    if (state.blend.size() % 6 != 0 ||
+        (!state.blend.empty() &&
+         state.blend.size() < 6 * parts.organs[organ]->surface.metres.positions.size()))
         return std::nullopt;
     for (float& value : state.blend) {
         value = in.f32();

@@ -464,9 +464,8 @@ std::vector<float> SurfacePasses::blend() const {
 
 void SurfacePasses::setBlend(SurfaceStage stage, const std::vector<float>& blend, float step) {
     blendStage_.reset();
-    if (blend.empty())
+    if (blend.size() * sizeof(float) != vertexCount() * kCapturedBytes)
         return;
-    SEROSA_CHECK(blend.size() * sizeof(float) == vertexCount() * kCapturedBytes, "six floats a vertex");
     blend_ = gpu::Buffer("switch of detail", std::span<const float>(blend));
     attachBlend(stage, blend_);
     blendStage_ = stage;

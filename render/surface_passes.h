@@ -91,6 +91,7 @@ public:
     void setBlendFrame(float frames);
     /// What fades: six floats a vertex in the order of the buffers; empty: nothing does.
     std::vector<float> blend() const;
+    /// Nothing fades where it is not of as many vertices as are drawn.
     void setBlend(SurfaceStage stage, const std::vector<float>& blend, float step);
 
     /// Draws from now on what cuts left of the mesh, bound anew, and these triangles over nodes for stage
