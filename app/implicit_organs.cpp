@@ -10,7 +10,7 @@ constexpr double kWarpVoxels = 2; // a spacing, of the lattice's displacement
 
 render::DeformationMap mapOf(const sim::Deformation& deformation) {
     render::DeformationMap map;
-    map.kind = render::MapKind(int(deformation.kind)); // in the same order
+    map.kind = deformation.kind;
     map.half = 0.5 * deformation.size;
     map.amount = deformation.amount;
     map.radius = deformation.radius;
@@ -43,7 +43,7 @@ Result<render::DeformationTexture> ImplicitOrgans::deformationTexture(const sim:
 }
 
 Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& metres,
-                           const sim::Lattice& lattice, const sim::TextureLayout& layout, bool simulated) {
+                           const sim::Lattice& lattice, const sim::TextureLayout& layout, bool moves) {
     if (scene.deformation && !deformation_) {
         SEROSA_ASSIGN(render::DeformationTexture texture, deformationTexture(scene));
         deformation_ = std::make_unique<render::DeformationTexture>(std::move(texture));
@@ -56,7 +56,7 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     organ.field = std::make_unique<render::DistanceVolume>(std::move(field));
     SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, *organ.field));
     organ.caster = std::make_unique<render::Raycaster>(std::move(caster));
-    if (simulated) {
+    if (moves) {
         SEROSA_ASSIGN(render::LatticeWarp warp, render::LatticeWarp::create(lattice, layout, kWarpVoxels));
         organ.lattice = std::make_unique<render::LatticeWarp>(std::move(warp));
         organ.caster->setLattice(organ.lattice.get());

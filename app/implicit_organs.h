@@ -19,9 +19,9 @@ public:
     static Result<render::DeformationTexture> deformationTexture(const sim::Scene& scene);
 
     /// Adds an organ: its distance field, its lattice's displacement. Errors: an open surface, of the
-    /// shaders. \param simulated its lattice moves
+    /// shaders. \param moves its lattice is asked where tissue is
     Status add(const sim::Scene& scene, const sim::TriangleMesh& metres, const sim::Lattice& lattice,
-               const sim::TextureLayout& layout, bool simulated);
+               const sim::TextureLayout& layout, bool moves);
     bool empty() const { return organs_.empty(); }
     /// Casters of the organs as their states have them, in the order in which they were added.
     std::vector<render::Raycaster*> casters(const std::vector<const sim::StateTextures*>& states);

@@ -178,10 +178,11 @@ static Status prepareImplicit(RunParts& parts, std::size_t i) {
         return Error{parts.scene.file.string() +
                      ": look.show = \"implicit\" needs organs of one level of detail, and " + wanted.name +
                      " has " + std::to_string(wanted.levels)};
-    // Where nothing is simulated the lattice moves only by a pose.
-    return parts.implicit.add(parts.scene, organ.surface.metres, organ.lattice, organ.textures().layout(),
-                              !parts.scene.deformation || !wanted.fixed.empty() || wanted.pose ||
-                                  !parts.scene.tools.empty());
+    const sim::Scene& scene = parts.scene;
+    const bool moves = wanted.pose || scene.gravity != glm::dvec3(0) || !scene.tools.empty() ||
+                       !scene.bodies.empty() || !scene.threads.empty() || !scene.cuts.empty() ||
+                       scene.organsTouch;
+    return parts.implicit.add(scene, organ.surface.metres, organ.lattice, organ.textures().layout(), moves);
 }
 
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext) {

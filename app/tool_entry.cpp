@@ -17,8 +17,9 @@ constexpr double kSpeed = 6;      // spacings a second
 constexpr double kStep = 0.5;     // spacings, between the places that are tried
 constexpr int kMostSteps = 400;
 
-double clearOf(const sim::RigidShape& shape, const sim::RigidPose& pose, const glm::dvec3& offset,
-               const std::vector<PlacedOrgan>& organs) {
+/// m: of the tool moved by this, in whichever organ; negative: clear of all.
+double deepestInside(const sim::RigidShape& shape, const sim::RigidPose& pose, const glm::dvec3& offset,
+                     const std::vector<PlacedOrgan>& organs) {
     sim::RigidPose moved = pose;
     moved.at += offset;
     double deepest = -std::numeric_limits<double>::infinity();
@@ -66,7 +67,7 @@ std::optional<ToolEntry> toolEntry(const sim::Tool& tool, const std::vector<Plac
                     continue;
                 const glm::dvec3 along = glm::normalize(glm::dvec3(x, y, z));
                 for (double far = kStep * finest; far < least; far += kStep * finest)
-                    if (clearOf(shape, pose, far * along, organs) < 0) {
+                    if (deepestInside(shape, pose, far * along, organs) < 0) {
                         least = far;
                         entry.offset = far * along;
                     }

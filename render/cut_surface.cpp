@@ -2,6 +2,7 @@
 #include "render/cut_surface.h"
 
 #include "render/cut_faces.h"
+#include "render/cut_sides.h"
 #include "shaders/shared_constants.h"
 #include "sim/triangle_tree.h"
 
@@ -113,18 +114,8 @@ bool liesOn(const VertexBinding& vertex, const std::vector<std::uint32_t>& conne
 }
 
 /// Are all nodes of a vertex still held, and no spring between two of them cut?
-bool isHeld(const sim::Lattice& lattice, const VertexBinding& vertex,
-            const std::vector<std::uint32_t>& connections) {
-    for (int i = 0; i < 3; ++i) {
-        const std::uint32_t a = vertex.nodes[i], b = vertex.nodes[(i + 1) % 3];
-        const glm::ivec3 offset = lattice.nodes[b] - lattice.nodes[a];
-        if (connections[a] == 0)
-            return false;
-        for (std::size_t d = 0; d < sim::kNeighbourOffsets.size(); ++d)
-            if (sim::kNeighbourOffsets[d] == offset && ((lattice.connections[a] & ~connections[a]) >> d & 1U))
-                return false;
-    }
-    return true;
+bool isHeld(const CutSides& cut, const glm::uvec3& nodes) {
+    return !cut.isLoose(nodes.x) && !cut.isLoose(nodes.y) && !cut.isLoose(nodes.z) && cut.isWhole(nodes);
 }
 
 } // namespace
@@ -141,6 +132,7 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
                                                     SideTriangles(lattice, connections, sides, 1)};
     const std::vector<glm::dvec3> normals = metres.vertexNormals();
     const ControlNodes nodes = controlNodes(lattice);
+    const CutSides held(lattice, connections);
     std::vector<int> near(binding.vertices.size());
     for (std::size_t v = 0; v < near.size(); ++v)
         near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
@@ -154,7 +146,7 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
         const VertexBinding& own = binding.vertices[v];
         // Beside faces that are drawn whole a vertex stays as it is, unless it belongs to the other side.
         if (liesOn(own, connections, sides, side) ||
-            (near[v] != 7 && isHeld(lattice, own, connections) && !liesOn(own, connections, sides, -side))) {
+            (near[v] != 7 && isHeld(held, own.nodes) && !liesOn(own, connections, sides, -side))) {
             found->second = std::int64_t(surface.vertices.size());
             surface.vertices.push_back({v, side, {}});
             return found->second;

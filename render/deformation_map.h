@@ -25,6 +25,8 @@
 // The papers give no formula for peel, wave, knife and seam: these are ours. In the gap of a cut D leads to
 // its middle, so that it stays continuous, and the mask says that nothing is there.
 
+#include "sim/scene.h"
+
 #include <glm/glm.hpp>
 
 #include <optional>
@@ -34,7 +36,7 @@
 
 namespace serosa::render {
 
-enum class MapKind { twist, bend, pull, peel, wave, knife, seam };
+using MapKind = sim::DeformationKind;
 
 enum class PullProfile { gaussian, narrow };
 

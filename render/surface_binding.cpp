@@ -199,6 +199,15 @@ SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice&
     return other;
 }
 
+std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                                          const sim::TriangleMesh& metres) {
+    std::vector<SurfaceBinding> bindings{binding};
+    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
+        if (mapping != binding.mapping)
+            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
+    return bindings;
+}
+
 TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const sim::Lattice& lattice,
                        const RestNormals& rest) {
     if (binding.mapping == Mapping::nodeFrames || binding.mapping == Mapping::trilinear)

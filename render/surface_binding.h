@@ -67,6 +67,10 @@ SurfaceBinding expressBinding(const SurfaceBinding& binding, const sim::Lattice&
                               const sim::TriangleMesh& metres, sim::Mapping mapping,
                               const std::vector<std::uint32_t>& connections = {});
 
+/// The binding, and MS05's two bases over the same triangles.
+std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const sim::Lattice& lattice,
+                                          const sim::TriangleMesh& metres);
+
 /// The axes at rest that what is given in a vertex's own turns with: T, N, B of its basis; those of the
 /// lattice of node frames and in cells. \param rest of this lattice
 TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const sim::Lattice& lattice,

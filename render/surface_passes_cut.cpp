@@ -43,12 +43,14 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
         }
     blendStage_.reset();
     bool anyConstant = anyConstant_;
-    const RestNormals rest(lattice);
+    std::optional<RestNormals> rest;
+    if (usesRest())
+        rest.emplace(lattice);
     for (const SurfaceBinding& binding : bindings) {
         const SurfaceBinding all = withCopies(binding, bound, lattice);
         SEROSA_TRY(createMapped(all, layout));
-        if (usesRest())
-            createRest(all, lattice, metres, rest);
+        if (rest)
+            createRest(all, lattice, metres, *rest);
         anyConstant =
             anyConstant || (binding.mapping == sim::Mapping::curvature && binding.constantVertices > 0);
     }

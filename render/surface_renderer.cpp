@@ -43,16 +43,6 @@ struct DrawnOrgan {
     }
 };
 
-/// The binding, and MS05's two bases over the same triangles.
-std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const sim::Lattice& lattice,
-                                          const sim::TriangleMesh& metres) {
-    std::vector<SurfaceBinding> bindings{binding};
-    for (const sim::Mapping mapping : {sim::Mapping::triangle, sim::Mapping::curvature})
-        if (mapping != binding.mapping)
-            bindings.push_back(expressBinding(binding, lattice, metres, mapping));
-    return bindings;
-}
-
 } // namespace
 
 struct SurfaceRenderer::Impl {
