@@ -31,8 +31,7 @@ Status OrganLevels::prepare(const RunOptions& options, RunParts& parts, std::siz
                          done.error().exitCode};
         organAt.tissue = sim::matchedTissue(wanted.tissue, own.lattice, made->lattice);
         made->setup.tissue = organAt.tissue;
-        SEROSA_ASSIGN(made->step,
-                      organStep(organAt, made->lattice, 1 / parts.scene.frameRate, parts.scene.file));
+        SEROSA_ASSIGN(made->step, organStep(organAt, made->lattice, parts.scene));
         made->setup.timeStep = made->step.timeStep;
         SEROSA_TRY(makeOrganSolver(options, false, *made));
         made->binding = render::bindSurface(made->lattice, made->surface.metres, parts.surfaceMapping());

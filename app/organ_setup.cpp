@@ -101,16 +101,17 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
     return lattice;
 }
 
-Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
-                                  const std::filesystem::path& scene) {
+Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice,
+                                  const sim::Scene& scene) {
+    const double frameTime = 1 / scene.frameRate;
     sim::StableStep step = sim::stableStep(lattice, organ.tissue, frameTime);
     if (organ.method == sim::StepMethod::implicit) {
-        step.stepsPerFrame = 1;
-        step.timeStep = frameTime;
+        step.stepsPerFrame = sim::implicitStepsPerFrame(scene.tools, lattice.spacing, frameTime);
+        step.timeStep = frameTime / step.stepsPerFrame;
         return step;
     }
     if (step.stepsPerFrame > kMostStepsAFrame)
-        return Error{scenePosition(scene, organ.modelLine) +
+        return Error{scenePosition(scene.file, organ.modelLine) +
                      "the tissue is so stiff or damped on so fine a lattice that a frame would take " +
                      shortNumber(explicitSteps(step, frameTime)) +
                      " steps (at most 100,000): set method = \"implicit\", lower young or damping_time, or "
@@ -120,6 +121,14 @@ Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& l
 
 double explicitSteps(const sim::StableStep& step, double frameTime) {
     return frameTime / (step.margin * step.bound);
+}
+
+std::string implicitStepsText(const sim::StableStep& step) {
+    if (step.stepsPerFrame == 1)
+        return "one a frame";
+    return std::to_string(step.stepsPerFrame) +
+           " a frame (no tool then goes further than half a spacing in a step" +
+           (step.stepsPerFrame == sim::kMostImplicitSteps ? ", or nearly so: these are the most)" : ")");
 }
 
 const char* methodName(sim::StepMethod method) {

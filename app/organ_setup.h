@@ -46,9 +46,13 @@ Result<sim::Lattice> organLattice(const sim::Organ& organ, const sim::TriangleMe
                                   const std::filesystem::path& scene);
 
 /// The step of the organ's method. Explicit: the stable one, refused where a frame would take more than
-/// 100,000. Implicit: the frame's own; what else is known of explicit steps stands beside it.
-Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice, double frameTime,
-                                  const std::filesystem::path& scene);
+/// 100,000. Implicit: the frame's own, or as many as the scene's tools ask for (sim::implicitStepsPerFrame);
+/// what else is known of explicit steps stands beside it.
+Result<sim::StableStep> organStep(const sim::Organ& organ, const sim::Lattice& lattice,
+                                  const sim::Scene& scene);
+
+/// "one a frame", or how many, and why.
+std::string implicitStepsText(const sim::StableStep& step);
 
 /// "explicit" or "implicit"
 const char* methodName(sim::StepMethod method);

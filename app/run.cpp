@@ -390,9 +390,9 @@ void describeOrgan(const sim::Organ& organ, const OrganParts& parts, const Organ
         notes.push_back(std::move(note));
     const sim::StableStep& step = parts.step;
     if (parts.solver && organ.method == sim::StepMethod::implicit)
-        out << "step: implicit, one a frame of " << shortNumber(1e3 * step.timeStep)
-            << " ms (explicit ones would be " << shortNumber(explicitSteps(step, step.timeStep))
-            << " a frame)\n";
+        out << "step: implicit, " << implicitStepsText(step) << " of " << shortNumber(1e3 * step.timeStep)
+            << " ms (explicit ones would be "
+            << shortNumber(explicitSteps(step, step.timeStep * step.stepsPerFrame)) << " a frame)\n";
     else if (parts.solver)
         out << "step: " << parts.step.stepsPerFrame << " steps a frame of "
             << shortNumber(1e3 * parts.step.timeStep) << " ms (stable below "

@@ -97,7 +97,7 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     if (organ.pose) {
         SEROSA_TRY(checkBend(parts.lattice, organ.pose->bendRadius));
     } else {
-        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, 1 / scene.frameRate, scene.file));
+        SEROSA_ASSIGN(parts.step, organStep(organ, parts.lattice, scene));
         parts.setup.timeStep = parts.step.timeStep;
     }
     return {};

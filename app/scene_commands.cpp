@@ -33,7 +33,7 @@ Result<Derived> derive(const sim::Scene& scene, const sim::Organ& organ) {
     if (organ.pose) {
         SEROSA_TRY(checkBend(derived.lattice, organ.pose->bendRadius));
     } else {
-        SEROSA_ASSIGN(derived.step, organStep(organ, derived.lattice, 1 / scene.frameRate, scene.file));
+        SEROSA_ASSIGN(derived.step, organStep(organ, derived.lattice, scene));
     }
     return derived;
 }
@@ -99,9 +99,9 @@ void printDerived(const sim::Organ& organ, const Derived& derived, std::ostream&
     line("mass of a full node", shortNumber(organ.tissue.nodeMass(lattice.spacing)) + " kg");
     const sim::StableStep& step = derived.step;
     if (organ.method == sim::StepMethod::implicit) {
-        line("explicit steps", shortNumber(explicitSteps(step, step.timeStep)) + " a frame, stable below " +
-                                   shortNumber(step.bound) + " s; not taken");
-        line("time step", shortNumber(step.timeStep) + " s, one implicit step a frame");
+        line("explicit steps", shortNumber(explicitSteps(step, step.timeStep * step.stepsPerFrame)) +
+                                   " a frame, stable below " + shortNumber(step.bound) + " s; not taken");
+        line("time step", shortNumber(step.timeStep) + " s, implicit, " + implicitStepsText(step));
         return;
     }
     line("stable step", shortNumber(step.bound) + " s, used with a margin of " + shortNumber(step.margin));

@@ -335,7 +335,8 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
     out << "view: " << parts.scene.organs.front().name << ", " << parts.context->info().renderer << std::endl;
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         if (parts.scene.organs[i].method == sim::StepMethod::implicit)
-            out << "step: " << parts.scene.organs[i].name << " takes one implicit step a frame" << std::endl;
+            out << "step: " << parts.scene.organs[i].name << " takes implicit steps, "
+                << implicitStepsText(parts.organs[i]->step) << std::endl;
     return view.loop(interrupt);
 }
 

@@ -16,6 +16,9 @@ layout(rgba32f) uniform restrict image2D i_positions;
 layout(rgba32f) uniform restrict image2D i_increments;
 layout(std430) readonly restrict buffer b_nearList { uvec2 b_near[]; };
 #include "contact_ends.glsl"
+#ifdef SRS_KEEPS_HELD
+#include "contact_kept.glsl"
+#endif
 
 void main() {
     uint item = gl_GlobalInvocationID.x;
@@ -26,6 +29,10 @@ void main() {
     uint info = imageLoad(i_nodeInfo, texel).x;
     if ((info & SRS_FLAG_ACTIVE) == 0u || (info & SRS_FLAG_FIXED) != 0u)
         return;
+#ifdef SRS_KEEPS_HELD
+    if (kept(info))
+        return;
+#endif
     vec3 x = imageLoad(i_start, texel).xyz;
     vec4 free = imageLoad(i_positions, texel); // alpha: the normal
     real3 end = endOf(texel);

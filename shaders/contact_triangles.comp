@@ -12,6 +12,10 @@ layout(rgba32f) uniform readonly restrict image2D i_start;
 layout(rgba32f) uniform readonly restrict image2D i_positions;
 layout(rgba32f) uniform readonly restrict image2D i_increments;
 #include "contact_ends.glsl"
+#ifdef SRS_KEEPS_HELD
+layout(rgba32ui) uniform readonly restrict uimage2D i_nodeInfo;
+#include "contact_kept.glsl"
+#endif
 layout(std430) readonly restrict buffer b_candidateList { uvec2 b_candidate[]; };
 layout(std430) writeonly restrict buffer b_asks { uvec4 b_ask[]; }; // triangle * 3 + corner: move; stamp, collider
 layout(std430) restrict buffer b_marks { uint b_mark[]; };          // by node: the last round that moved it
@@ -25,13 +29,18 @@ void main() {
         return;
     uvec2 candidate = b_candidate[item];
     ContactTriangle triangle = b_triangle[candidate.x];
-    dvec3 depths = depthsOf(triangle);
+    dvec3 depths = depthsOf(triangle), inverseMasses;
     dvec3 start[3], end[3];
     vec3 moves[3] = vec3[3](vec3(0.0), vec3(0.0), vec3(0.0));
     int movers[3] = int[3](0, 0, 0);
     for (int k = 0; k < 3; ++k) {
         start[k] = dvec3(imageLoad(i_start, texelAt(triangle.nodes[k])).xyz);
         end[k] = endOf(texelAt(triangle.nodes[k]));
+        inverseMasses[k] = triangle.inverseMasses[k];
+#ifdef SRS_KEEPS_HELD
+        if (kept(imageLoad(i_nodeInfo, texelAt(triangle.nodes[k])).x))
+            inverseMasses[k] = 0.0lf;
+#endif
     }
     for (uint mask = candidate.y; mask != 0u; mask &= mask - 1u) {
         int c = findLSB(mask);
@@ -42,8 +51,7 @@ void main() {
             Corners(ownAtEnd(c, end[0]), ownAtEnd(c, end[1]), ownAtEnd(c, end[2])), depth, weights);
         if (move == dvec3(0.0))
             continue;
-        dvec3 shares = cornerShares(weights, dvec3(triangle.inverseMasses[0], triangle.inverseMasses[1],
-                                                   triangle.inverseMasses[2])); // 0 where all are fixed
+        dvec3 shares = cornerShares(weights, inverseMasses); // 0 where all are fixed
         move = turned(b_collider[c].turnTo, move);
         for (int k = 0; k < 3; ++k) {
             vec3 asked = vec3(move * shares[k]);

@@ -57,6 +57,7 @@ Status ContactPass::initialize(const SolverSetup& setup, const StateTextures& te
         (tool.mode == ToolMode::push ? pushes_ : grasps_) = true;
         triangles_ = triangles_ || (tool.mode == ToolMode::push && tool.shape.kind != ShapeKind::halfSpace);
     }
+    keeps_ = grasps_ && setup.method == StepMethod::implicit;
     for (const Body& body : setup.bodies)
         triangles_ = triangles_ || body.shape.kind != ShapeKind::halfSpace;
     mass_ = TissueField(*setup.lattice, setup.tissue).massShares();
@@ -84,6 +85,8 @@ Status ContactPass::createPrograms(const TextureLayout& layout) {
     defines.push_back({"SRS_GROUP_Y", grid ? "8" : "1"});
     if (asking_)
         defines.push_back({"SRS_ASKS", "1"});
+    if (keeps_)
+        defines.push_back({"SRS_KEEPS_HELD", "1"});
     const gpu::ShaderLibrary library;
     const auto create = [&](gpu::Program& program, const char* stage) -> Status {
         SEROSA_ASSIGN(program, gpu::Program::create(library, {stage}, defines));
@@ -301,6 +304,8 @@ void ContactPass::runPushes(const StateTextures& textures) {
         setPositions(cull_, textures, false);
         cull_.dispatch({int(triangleCount_), 1, 1});
         setPositions(triangle_, textures, false);
+        if (keeps_)
+            triangle_.image("i_nodeInfo", textures.nodeInfo(), GL_READ_ONLY);
         setPositions(move_, textures, true);
         move_.set("u_step", unsigned(stamp_));
     }

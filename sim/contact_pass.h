@@ -83,7 +83,8 @@ private:
     std::vector<std::uint32_t> connections_;
     std::size_t triangleCount_ = 0;
     bool stale_ = false, recount_ = true, asking_ = false;
-    int set_ = 0; // of lists, in turns
+    bool keeps_ = false; // steps are implicit and grasps may have no limit: contact leaves held nodes alone
+    int set_ = 0;        // of lists, in turns
     std::uint32_t stamp_ = 0;
 
     gpu::Program close_, held_, listNear_, cull_, triangle_, move_, push_;

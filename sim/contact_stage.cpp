@@ -106,6 +106,15 @@ void ContactStage::run(std::int64_t step, ContactNodes& nodes, double fastest,
     applyMoves(nodes);
 }
 
+void ContactStage::keep(std::vector<std::uint32_t> nodes) {
+    for (const std::uint32_t node : kept_)
+        inverseMass_[node] = 1 / mass_[node];
+    std::erase_if(nodes, [this](std::uint32_t node) { return inverseMass_[node] == 0; }); // fixed
+    kept_ = std::move(nodes);
+    for (const std::uint32_t node : kept_)
+        inverseMass_[node] = 0;
+}
+
 void ContactStage::push(std::int64_t step, ContactNodes& nodes, double fastest, StepPart part, Loads loads) {
     if (empty())
         return;

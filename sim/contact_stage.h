@@ -49,6 +49,8 @@ public:
     bool empty() const { return setup_.tools.empty() && setup_.bodies.empty(); }
     /// What cuts left: 18 bits a node.
     void connect(const std::vector<std::uint32_t>& connections);
+    /// Nodes that nothing moves until the next call: a grasp without limit has them where it wants them.
+    void keep(std::vector<std::uint32_t> nodes);
     /// Positions came from elsewhere.
     void reset() { drift_ = -1; }
 
@@ -80,7 +82,7 @@ public:
     }
     /// The collider that moved a node last.
     std::uint32_t mover(std::uint32_t node) const { return mover_[node]; }
-    /// 0 for fixed nodes.
+    /// 0 for fixed and kept nodes.
     double inverseMass(std::uint32_t node) const { return inverseMass_[node]; }
 
     /// Since the last call, one a collider.
@@ -157,6 +159,7 @@ private:
 
     std::vector<std::uint32_t> held_; // nodes, ascending; as of heldBy
     std::vector<std::uint32_t> heldSeen_;
+    std::vector<std::uint32_t> kept_;
     std::vector<Load> loads_;
 };
 

@@ -199,4 +199,10 @@ struct StableStep {
 /// Largest stable explicit step for a frame of `frameTime` seconds.
 StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frameTime);
 
+/// Implicit steps a frame: one, or as many (at most kMostImplicitSteps) as keep the tools that follow keys
+/// from going further than half a spacing in a step. A tool that jumps through tissue puts more energy into
+/// it than its force at the step's end can say.
+int implicitStepsPerFrame(const std::vector<Tool>& tools, double spacing, double frameTime);
+constexpr int kMostImplicitSteps = 32;
+
 } // namespace serosa::sim

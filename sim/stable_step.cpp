@@ -10,6 +10,7 @@
 //   volume:  f b (div u)^2 = 9 f b over the same mass: 12 b.
 // In the endless lattice the plane wave of length 2 h along an axis has 12 from the springs and 4 b: the
 // divergence of each cell is 2 in it.
+#include "sim/shape_distance.h"
 #include "sim/solver.h"
 #include "sim/tissue_field.h"
 #include "sim/volume_term.h"
@@ -28,7 +29,8 @@ constexpr double kEndlessLattice = 12, kEndlessLatticeBulk = 4; // omega^2 / (k/
 // step, at sqrt(2) 4:1; an undamped ball with random velocities blows up at 0.85 of the bound. 0.7 keeps
 // every mode below both.
 constexpr double kMargin = 0.7;
-constexpr double kMostSteps = 1e9; // a frame; more cannot be counted
+constexpr double kImplicitWay = 0.5; // spacings that a tool may go in an implicit step
+constexpr double kMostSteps = 1e9;   // a frame; more cannot be counted
 // The iteration approaches from below.
 constexpr double kIterationSlack = 1.02;
 constexpr std::size_t kIterations = 80;
@@ -223,6 +225,21 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     step.stepsPerFrame = steps < kMostSteps ? int(steps) : int(kMostSteps);
     step.timeStep = frameTime / step.stepsPerFrame;
     return step;
+}
+
+int implicitStepsPerFrame(const std::vector<Tool>& tools, double spacing, double frameTime) {
+    double farthest = 0; // m in a frame, of any point of a tool
+    for (const Tool& tool : tools)
+        for (std::size_t i = 1; i < tool.keys.size(); ++i) {
+            const ToolKey &a = tool.keys[i - 1], &b = tool.keys[i];
+            double way = glm::distance(a.at, b.at);
+            if (a.turn != b.turn && tool.shape.kind != ShapeKind::halfSpace)
+                way += 2 * std::acos(std::min(1.0, std::abs(glm::dot(a.turn, b.turn)))) *
+                       boundingRadius(tool.wholeShape());
+            farthest = std::max(farthest, way * std::min(1.0, frameTime / (b.time - a.time)));
+        }
+    const double steps = std::ceil(farthest / (kImplicitWay * spacing) - 1e-6);
+    return int(std::clamp(steps, 1.0, double(kMostImplicitSteps)));
 }
 
 } // namespace serosa::sim

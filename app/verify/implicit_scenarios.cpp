@@ -37,10 +37,10 @@ Result<Outcome> play(const RandomScenario& scenario, sim::Solver& solver, int fr
     sim::Watchdog watchdog(scenario.setup, scenario.step);
     solver.setState(scenario.start);
     watchdog.start(solver.state());
-    const double frame = scenario.setup.timeStep;
+    const double frame = scenario.setup.timeStep * scenario.step.stepsPerFrame;
     sim::LatticeState state;
     for (int i = 1; i <= frames; ++i) {
-        solver.advance(1);
+        solver.advance(scenario.step.stepsPerFrame);
         watchdog.addWork((i - 1) * frame, i * frame, solver.takeLoads());
         SEROSA_TRY(scenario.cutFrame(solver, (i - 1) * frame, i * frame));
         state = solver.state();

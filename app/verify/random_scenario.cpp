@@ -296,6 +296,10 @@ Result<std::unique_ptr<RandomScenario>> randomScenario(std::uint32_t seed, std::
         scenario->cuts.push_back(randomCut(random, lattice, bounds, end));
     if (random.chance(0.25))
         scenario->tearStrain = random.number(0.2, 1.5);
+    if (implicit) {
+        scenario->step.stepsPerFrame = sim::implicitStepsPerFrame(setup.tools, lattice.spacing, kFrameTime);
+        setup.timeStep = kFrameTime / scenario->step.stepsPerFrame;
+    }
     scenario->start = sim::startState(setup);
     if (random.chance(0.25))
         for (std::size_t node = 0; node < lattice.nodeCount(); ++node)

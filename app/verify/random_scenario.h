@@ -67,7 +67,8 @@ struct RandomScenario {
     Status cutFrame(sim::Solver& solver, double from, double to) const;
 };
 
-/// \param steps how many it will take: keys of tools and cuts lie within. Implicit ones are of 1/60 s. The
+/// \param steps how many it will take: keys of tools and cuts lie within. Implicit ones are of 1/60 s, or as
+/// short as the tools ask for; `steps` then counts frames. The
 /// same organ for either method. Errors: of the phantoms.
 Result<std::unique_ptr<RandomScenario>>
 randomScenario(std::uint32_t seed, std::size_t mostNodes, int steps, Wildness wildness,

@@ -114,6 +114,27 @@ TEST_F(GlImplicitContact, graspsHoldTurnAndSlip) {
     }
 }
 
+TEST_F(GlImplicitContact, aGraspWithoutLimitKeepsItsNodes) {
+    const Lattice lattice = block(4, 4, 4, 0.005);
+    SolverSetup setup = test::implicitSetup(lattice, 2e4);
+    const glm::dvec3 at = lattice.toWorld({2, 0, 0}), far = at + glm::dvec3(0.03, 0, 0);
+    setup.tools = {{"grasp", sim::ToolMode::grasp, 0.006, {{0, at}, {9, at}}},
+                   {"ball", sim::ToolMode::push, 0.012, {{0, far}, {0.25, at + glm::dvec3(0.009, 0, 0)}}}};
+    const LatticeState start = sim::startState(setup);
+    const auto solver = onGpu(setup);
+    solver->setState(start);
+    solver->advance(15);
+    EXPECT_LT(solver->takeLoads()[1].impulse.x, 0);
+    const LatticeState state = solver->state();
+    std::size_t held = 0;
+    for (std::size_t i = 0; i < state.heldBy.size(); ++i)
+        if (state.heldBy[i] != 0) {
+            ++held;
+            EXPECT_LT(glm::distance(state.positions[i], start.positions[i]), 1e-6);
+        }
+    EXPECT_GE(held, 5u);
+}
+
 TEST_F(GlImplicitContact, layoutsAndRestoresKeepEveryByte) {
     const Lattice lattice = block(6, 4, 5, 0.005);
     SolverSetup setup = test::implicitSetup(lattice, 1e5);

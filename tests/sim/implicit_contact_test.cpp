@@ -164,6 +164,46 @@ TEST(ImplicitContact, aFiniteGripSlipsAtItsForce) {
         }
 }
 
+// What is pushed against a grasp gives way around it.
+TEST(ImplicitContact, aGraspWithoutLimitKeepsItsNodes) {
+    const Lattice lattice = block(6, 6, 6, 0.005);
+    SolverSetup setup = implicitSetup(lattice, 2e4);
+    const glm::dvec3 at = lattice.toWorld({3, 0, 0}), far = at + glm::dvec3(0.04, 0, 0);
+    setup.tools = {{"grasp", sim::ToolMode::grasp, 0.006, {{0, at}, {9, at}}},
+                   {"ball", sim::ToolMode::push, 0.012, {{0, far}, {0.5, at + glm::dvec3(0.009, 0, 0)}}}};
+    for (const bool exact : {true, false}) {
+        const auto solver = made(setup, exact);
+        const LatticeState start = sim::startState(setup);
+        solver->setState(start);
+        solver->advance(30);
+        EXPECT_LT(solver->takeLoads()[1].impulse.x, 0) << "the ball reaches the block";
+        const LatticeState state = solver->state();
+        std::size_t held = 0;
+        for (std::size_t i = 0; i < state.heldBy.size(); ++i)
+            if (state.heldBy[i] != 0) {
+                ++held;
+                EXPECT_LT(glm::distance(state.positions[i], start.positions[i]), 1e-6) << exact;
+            }
+        EXPECT_GE(held, 5u);
+    }
+}
+
+TEST(ImplicitContact, stepsFollowTheFastestTool) {
+    const auto steps = [](std::vector<sim::ToolKey> keys) {
+        return sim::implicitStepsPerFrame({{"ball", sim::ToolMode::push, 0.01, std::move(keys)}}, 0.005,
+                                          kFrame);
+    };
+    EXPECT_EQ(sim::implicitStepsPerFrame({}, 0.005, kFrame), 1);
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {1, {0.15, 0, 0}}}), 1); // 2.5 mm a frame: half a spacing
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {1, {0.16, 0, 0}}}), 2);
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {1, {0.9, 0, 0}}, {2, {0.9, 0, 0}}}), 6);
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {0.001, {0.006, 0, 0}}}), 3); // gone before the frame is over
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {1, {500, 0, 0}}}), sim::kMostImplicitSteps);
+    // Half a turn a second of a ball of 10 mm: 0.52 mm a frame.
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {1, glm::dvec3(0), glm::dquat(0, 0, 0, 1)}}), 1);
+    EXPECT_EQ(steps({{0, glm::dvec3(0)}, {0.1, glm::dvec3(0), glm::dquat(0, 0, 0, 1)}}), 3);
+}
+
 TEST(ImplicitContact, aToolGivesWhatAFreeOrganGains) {
     const Lattice lattice = block(6, 4, 5, 0.005);
     SolverSetup setup = implicitSetup(lattice, 2e4);
