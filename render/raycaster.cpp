@@ -84,6 +84,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
                                               {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
     if (variant.lattice)
         defines.push_back({"RAYCAST_LATTICE", "1"});
+    if (variant.cut)
+        defines.push_back({"RAYCAST_CUT", "1"});
     if (variant.warped)
         defines.push_back({"RAYCAST_WARP", "1"});
     if (variant.probe)
@@ -95,7 +97,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(), probe}));
+                  program({look.solid, look.search, lattice_ != nullptr, lattice_ && lattice_->isCut(),
+                           mapping_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };

@@ -74,7 +74,7 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool lattice, warped, probe;
+        bool lattice, cut, warped, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;

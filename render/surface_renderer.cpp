@@ -323,6 +323,10 @@ Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
     return {};
 }
 
+const CutMask* SurfaceRenderer::cutMask(std::size_t organ) const {
+    return impl_->organs.at(organ).surface.mask();
+}
+
 std::string SurfaceRenderer::saveCuts(std::size_t organ) const {
     const CutMask* mask = impl_->organs.at(organ).surface.mask();
     return mask ? mask->save() : std::string();

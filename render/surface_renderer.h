@@ -21,6 +21,7 @@
 
 namespace serosa::render {
 
+class CutMask;   // render/cut_mask.h
 class Raycaster; // render/raycaster.h
 
 /// What is drawn in one picture.
@@ -98,6 +99,8 @@ public:
     /// of CutMask::create.
     Status paintCut(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
                     const sim::Stroke& stroke);
+    /// What strokes left of an organ, for other passes; null where no mask was made.
+    const CutMask* cutMask(std::size_t organ) const;
     /// The mask of an organ for snapshots, empty where none was made, and set again; empty: nothing is cut.
     /// Errors: as paintCut; bytes of another mask.
     std::string saveCuts(std::size_t organ) const;

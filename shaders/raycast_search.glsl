@@ -50,6 +50,16 @@ bool matter(Place place) {
     return place.body < 0.0 && place.mask >= 0.5;
 }
 
+/// Is tissue entered far from its surface, although the body's field was not negative before? In an opened cut the field is that
+/// of one side or the other, as it would go on there.
+bool entersInside(Place place) {
+#ifdef RAYCAST_CUT
+    return place.body < -0.05 * u_step;
+#else
+    return false;
+#endif
+}
+
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
     float t = start;
@@ -83,11 +93,11 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
                 }
             }
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-            bool meant = in_.mask >= 0.5;
+            bool meant = in_.mask >= 0.5 && !entersInside(in_);
             hit.back = now.body >= 0.0;
 #else
             bool meant = true;
-            hit.face = out_.body < 0.0;
+            hit.face = out_.body < 0.0 || entersInside(in_);
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
             hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
 #endif
@@ -108,8 +118,9 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
 /// Unit, outward of what was hit: eq. 5; of a cut's face against the mask's gradient (eq. 6 reads |f| < epsilon: here the
 /// search knows which of the two it met).
 vec3 hitNormal(vec3 shown, Hit hit) {
-    if (hit.face)
-        return normalize(-maskGradient(shown));
+    vec3 mask = hit.face ? maskGradient(shown) : vec3(0.0);
+    if (mask != vec3(0.0)) // there is none where tissue ends that nothing cut
+        return normalize(-mask);
     vec3 normal = normalize(transpose(warpJacobian(shown)) * fieldGradient(hit.rest));
     return hit.back ? -normal : normal;
 }
