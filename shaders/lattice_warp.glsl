@@ -32,11 +32,12 @@ const uint kNobody = 0xffffffffu;
 uint ownerOf(float outside, bool copy, uint cell) {
     return uint(min(outside * 950.0, 2046.0)) << 21 | uint(copy) << 20 | cell;
 }
-bool isOutside(uint owner) {
-    return owner >> 21 != 0u;
+uint outsideOf(uint owner) {
+    return owner >> 21;
 }
-bool isOfCopy(uint owner) {
-    return (owner >> 20 & 1u) != 0u;
+/// Is it claimed by a copy that does not hold it?
+bool goesOn(uint owner) {
+    return owner != kNobody && outsideOf(owner) != 0u && (owner >> 20 & 1u) != 0u;
 }
 uint cellOf(uint owner) {
     return owner & 0xfffffu;

@@ -12,13 +12,15 @@ shared vec4 s_corner[8];
 /// Does the side have this cell, which may be a copy of one that a cut crosses?
 bool isHere() {
 #ifdef WARP_CUT
-    bool any = false;
+    bool crosses = false, own = false;
     for (int i = 0; i < 8; ++i) {
-        any = any || s_corner[i].w >= 0.0;
-        if (s_corner[i].w == SRS_SIDE_NONE)
+        float w = s_corner[i].w;
+        if (w == SRS_SIDE_NONE)
             return false;
+        crosses = crosses || w < 0.0;
+        own = own || w >= 0.0 && w < SRS_SIDE_FAR;
     }
-    return any;
+    return own || !crosses;
 #else
     return true;
 #endif

@@ -15,9 +15,9 @@ void main() {
     int side = u_side;
     uint owner = imageLoad(i_owner, voxel + ivec3(0, 0, side * u_size.z)).x;
 #ifdef WARP_CUT
-    // What only lies beside the side's own cells is the other side's where that has a cell there; but a copy goes on past the cut.
+    // A place is of the cell that it is nearest to, whosever that is; but a copy goes on past the cut, on its own side alone.
     uint other = imageLoad(i_owner, voxel + ivec3(0, 0, (1 - side) * u_size.z)).x;
-    if (isOutside(owner) && !isOutside(other) && (owner == kNobody || !isOfCopy(owner))) {
+    if (outsideOf(other) < outsideOf(owner) && !goesOn(owner) && !goesOn(other)) {
         side = 1 - side;
         owner = other;
     }

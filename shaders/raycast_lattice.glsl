@@ -13,6 +13,7 @@ struct Moved {
     float kept;   // of the blades' mask there
     bool covered; // there can be tissue
     float side;   // of the cuts: 1, -1
+    float cut;    // to the nearest of them
 };
 
 vec4 readLattice(vec3 shown, float side) {
@@ -26,12 +27,13 @@ vec4 readLattice(vec3 shown, float side) {
 
 Moved movedBy(vec3 shown, float side) {
     vec4 read = readLattice(shown, side);
-    Moved moved = Moved(shown + read.xyz, 0.0, read.w > 0.999, side); // covered: all samples around are
+    Moved moved = Moved(shown + read.xyz, 0.0, read.w > 0.999, side, 1e9); // covered: all samples around are
     if (!moved.covered)
         return moved;
     moved.kept = 1.0;
 #ifdef RAYCAST_CUT
     vec4 mask = cutMask(moved.rest);
+    moved.cut = hasSides(mask) ? SRS_MASK_REACH * mask.b : 1e9;
     moved.kept = hasSides(mask) && side * sideOf(mask) < 0.0 ? 0.0 : mask.a;
 #endif
     return moved;
@@ -46,6 +48,7 @@ Moved moveBack(vec3 shown) {
     Moved below = movedBy(shown, -1.0);
     if (below.kept >= 0.5 || !moved.covered)
         return below;
+    moved.cut = min(moved.cut, below.cut);
 #endif
     return moved;
 }

@@ -15,6 +15,7 @@ uniform float u_boxSize;   // longer than any way through the box: the distance 
 struct Place {
     float distance, body, mask; // signed distance of the surface; the same of the body that is drawn
     vec3 rest;
+    float cut; // to the nearest blade's cut, object space
 };
 
 Place placeAt(vec3 shown) {
@@ -25,7 +26,7 @@ Place placeAt(vec3 shown) {
 #endif
     if (!warped.covered)
         f = body = u_boxSize;
-    return Place(f, body, warped.mask, warped.rest);
+    return Place(f, body, warped.mask, warped.rest, warped.cut);
 }
 
 struct Hit {
@@ -36,13 +37,16 @@ struct Hit {
 };
 
 /// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005).
-float stepFrom(vec3 shown, vec3 along, float body) {
+/// The lip of a blade's cut is a wedge between surface and cut: short steps where both are near, or in the cut and one is.
+float stepFrom(vec3 shown, vec3 along, Place place) {
+    float body = place.body, lip = place.mask < 0.5 ? place.cut : max(abs(body), place.cut);
+    float most = max(0.25 * lip, SRS_LIP_STEP * u_step);
 #if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
-    return u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
+    return min(most, u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP));
 #elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
-    return abs(body) < u_threshold ? 0.25 * u_step : u_step;
+    return min(most, abs(body) < u_threshold ? 0.25 * u_step : u_step);
 #else
-    return u_step;
+    return min(most, u_step);
 #endif
 }
 
@@ -65,7 +69,7 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
     float t = start;
     Place before = placeAt(from + t * along);
     while (t < end && hit.samples < SRS_MOST_SAMPLES) {
-        float next = min(t + stepFrom(from + t * along, along, before.body), end);
+        float next = min(t + stepFrom(from + t * along, along, before), end);
         Place now = placeAt(from + next * along);
         ++hit.samples;
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW

@@ -57,26 +57,28 @@ struct Warped {
     vec3 rest;    // p
     float mask;   // A
     bool covered; // there can be tissue
+    float cut;    // to the nearest blade's cut, object space
 };
 
 /// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
 Warped warp(vec3 shown) {
     bool tissue = true;
-    float kept = 1.0; // by the blades; the map's own mask comes beside
+    float kept = 1.0, cut = 1e9; // by the blades; the map's own mask comes beside
 #ifdef RAYCAST_LATTICE
     Moved moved = moveBack(shown);
     tissue = moved.covered;
     kept = moved.kept;
+    cut = moved.cut;
     shown = moved.rest;
 #endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue);
+        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue, cut);
     }
 #endif
-    return Warped(shown, kept, tissue);
+    return Warped(shown, kept, tissue, cut);
 }
 
 #ifdef RAYCAST_WARP

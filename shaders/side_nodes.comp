@@ -32,6 +32,10 @@ int nodeAt(ivec3 grid) {
     return b_nodeOfGrid[grid.x + u_dims.x * (grid.y + u_dims.y * grid.z)];
 }
 
+ivec3 offset(int direction) {
+    return ivec3(u_offsets[3 * direction], u_offsets[3 * direction + 1], u_offsets[3 * direction + 2]);
+}
+
 uint connectionsOf(int node) {
     return texelFetch(t_nodeInfo, texelOf(node), 0).x & SRS_CONNECTION_MASK;
 }
@@ -51,7 +55,7 @@ void countAcross(int node, float side, inout int before, inout int left) {
     for (int d = 0; d < SRS_NEIGHBOURS; ++d) {
         if ((rest >> d & 1u) == 0u)
             continue;
-        int other = nodeAt(gridOf(node) + ivec3(u_offsets[3 * d], u_offsets[3 * d + 1], u_offsets[3 * d + 2]));
+        int other = nodeAt(gridOf(node) + offset(d));
         if (other < 0 || !isOn(other, side))
             continue;
         ++before;
@@ -63,10 +67,9 @@ void countAcross(int node, float side, inout int before, inout int left) {
 float joined(int node, float side) {
     int before = 0, left = 0;
     countAcross(node, side, before, left);
-    ivec3 grid = gridOf(node);
-    for (int i = 0; i < 27 && before == 0; ++i) { // none of its own: those of its neighbours
-        int other = nodeAt(grid + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
-        if (other >= 0)
+    for (int d = 0; d < 6 && before == 0; ++d) { // none of its own: those of its neighbours along the axes
+        int other = nodeAt(gridOf(node) + offset(d));
+        if (other >= 0 && isOn(other, -side))
             countAcross(other, side, before, left);
     }
     return before == 0 ? -1.0 : float(left) / float(before);
