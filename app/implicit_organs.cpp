@@ -69,9 +69,8 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     return {};
 }
 
-std::vector<render::Raycaster*>
-ImplicitOrgans::casters(const std::vector<const sim::StateTextures*>& states,
-                        const render::SurfaceRenderer& drawn) {
+std::vector<render::Raycaster*> ImplicitOrgans::casters(const std::vector<const sim::StateTextures*>& states,
+                                                        const render::SurfaceRenderer& drawn) {
     std::vector<render::Raycaster*> all;
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         if (organs_[i].lattice) {

@@ -48,7 +48,9 @@ public:
     void bind(gpu::Program& program) const;
 
     const glm::ivec3& size() const { return sides_[0].size(); }
-    std::size_t bytes() const { return sides_[0].bytes() + (sides_[1] ? sides_[1].bytes() : 0); } // on the GPU
+    std::size_t bytes() const {
+        return sides_[0].bytes() + (sides_[1] ? sides_[1].bytes() : 0);
+    } // on the GPU
     /// D (lattice units) and coverage, and the box of the voxels' middles; waits.
     struct Read {
         glm::dvec3 lowest{0}, step{1}; // lattice units

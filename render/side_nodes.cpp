@@ -23,8 +23,7 @@ Result<SideNodes> SideNodes::create(const sim::Lattice& lattice, const sim::Text
     made.dims_ = lattice.nodeDims;
     made.centre_ = lattice.centre;
     made.nodes_ = gpu::Buffer("nodes beside cuts", std::span<const glm::uvec4>(nodes));
-    made.grid_ =
-        gpu::Buffer("grid of nodes beside cuts", std::span<const std::int32_t>(lattice.nodeOfGrid));
+    made.grid_ = gpu::Buffer("grid of nodes beside cuts", std::span<const std::int32_t>(lattice.nodeOfGrid));
     made.above_ = gpu::Texture2D("nodes above cuts", GL_RGBA32F, layout.width, layout.height);
     made.below_ = gpu::Texture2D("nodes below cuts", GL_RGBA32F, layout.width, layout.height);
     return made;

@@ -75,32 +75,53 @@ float joined(int node, float side) {
     return before == 0 ? -1.0 : float(left) / float(before);
 }
 
-/// Where nodes on a side and far ones would have a node: weighted least squares of an affine displacement. w: 0 if there are none.
+/// Can a node say where its side is?
+bool speaks(int node, float side) {
+    return node >= 0 && (isFar(node) || isOn(node, side)) && connectionsOf(node) != 0u;
+}
+
+/// Offset to the nearest node of the side; 0: there is none within reach.
+ivec3 nearestOf(ivec3 grid, float side) {
+    ivec3 nearest = ivec3(0);
+    int least = 4 * kReach * kReach;
+    for (int z = -kReach; z <= kReach; ++z)
+        for (int y = -kReach; y <= kReach; ++y)
+            for (int x = -kReach; x <= kReach; ++x) {
+                int away = x * x + y * y + z * z;
+                if (away > 0 && away < least && speaks(nodeAt(grid + ivec3(x, y, z)), side)) {
+                    least = away;
+                    nearest = ivec3(x, y, z);
+                }
+            }
+    return nearest;
+}
+
+/// Where the side's nodes would have a node: weighted least squares of an affine displacement around its nearest one, which has
+/// neighbours into the tissue on all sides but the cut. w: 0 if there are none.
 vec4 carriedBy(int node, float side) {
+    ivec3 away = nearestOf(gridOf(node), side), grid = gridOf(node) + away;
+    if (away == ivec3(0))
+        return vec4(0.0);
     mat4 normal = mat4(0.0);
     mat4x3 right = mat4x3(0.0); // columns: of 1, x, y, z
     float weights = 0.0;
-    ivec3 grid = gridOf(node);
     for (int z = -kReach; z <= kReach; ++z)
         for (int y = -kReach; y <= kReach; ++y)
             for (int x = -kReach; x <= kReach; ++x) {
                 int other = nodeAt(grid + ivec3(x, y, z));
-                if (other < 0 || other == node || !(isFar(other) || isOn(other, side)) || connectionsOf(other) == 0u)
+                if (!speaks(other, side))
                     continue;
                 vec4 r = vec4(1.0, x, y, z);
-                float w = 1.0 / float(x * x + y * y + z * z);
-                w *= w;
+                float w = 1.0 / (1.0 + float(x * x + y * y + z * z));
                 vec3 moved = texelFetch(t_positions, texelOf(other), 0).xyz - vec3(gridOf(other) - u_centre);
                 normal += w * outerProduct(r, r);
                 right += w * outerProduct(moved, r);
                 weights += w;
             }
-    if (weights == 0.0)
-        return vec4(0.0);
     for (int i = 1; i < 4; ++i)
         normal[i][i] += kEven * weights;
-    vec3 moved = right * inverse(normal)[0];
-    return vec4(vec3(grid - u_centre) + moved, 1.0);
+    vec3 moved = right * (inverse(normal) * vec4(1.0, vec3(-away)));
+    return vec4(vec3(gridOf(node) - u_centre) + moved, 1.0);
 }
 
 /// xyz: the place; w: how far on this side the node lies, as SRS_SIDE_... say.
