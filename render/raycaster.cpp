@@ -9,6 +9,8 @@ namespace serosa::render {
 
 namespace {
 
+constexpr double kBehind = 1; // voxels of the field, where the surface itself is drawn, too
+
 GLenum glFormat(TexelFormat format) {
     return format == TexelFormat::unorm8 ? GL_RGBA8 : format == TexelFormat::half ? GL_RGBA16F : GL_RGBA32F;
 }
@@ -27,6 +29,7 @@ RaycastLook raycastLook(const sim::Look& look) {
                  : look.interior == sim::Interior::solid ? Solid::solid
                                                          : Solid::shell;
     made.thickness = look.shell;
+    made.closes = look.show == sim::Show::both;
     return made;
 }
 
@@ -114,6 +117,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     program.texture("t_field", volume_->texture());
     program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
     program.set("u_thickness", float(look.thickness / unit_));
+    program.set("u_behind", float(look.closes ? kBehind * voxel : 0));
     if (mapping_) {
         glm::dmat4 objectFromWorld(1 / unit_);
         objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);

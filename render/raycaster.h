@@ -36,6 +36,7 @@ struct RaycastLook {
     double step = 0.5;        // between samples, voxels of the distance field
     double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
+    bool closes = false;      // a surface that is drawn beside it: all but faces of cuts lies a little behind
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
 

@@ -280,6 +280,10 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
     program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::inCells)
         program.texture("t_cells", cells_);
+    if (stage == SurfaceStage::inCells && sideNodes_) {
+        sideNodes_->update(state, *mask_);
+        program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
+    }
     if (stage == SurfaceStage::nodeFrames) {
         frames_->run(state.positions());
         program.texture("t_frames", frames_->frames());

@@ -8,6 +8,7 @@
 #include "render/cut_surface.h"
 #include "render/frame.h"
 #include "render/frame_pass.h"
+#include "render/side_nodes.h"
 #include "render/surface_binding.h"
 #include "render/surface_clusters.h"
 #include "render/surface_seams.h"
@@ -214,6 +215,7 @@ private:
     gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
     RestBox restBox_;
     std::optional<CutMask> mask_;
+    std::optional<SideNodes> sideNodes_; // of stage inCells, where there is a mask
 };
 
 } // namespace serosa::render

@@ -32,7 +32,7 @@ struct View {
     std::vector<DrawnShape> shapes;       // tools and bodies (render/tool_shapes.h)
     std::vector<DrawnThread> threads;     // between organs, drawn where tools are
     bool wireframe = false;               // the surface as the edges of its front faces
-    std::vector<Raycaster*> casters = {}; // one an organ, drawn in place of surfaces if look.show says so
+    std::vector<Raycaster*> casters = {}; // one an organ, drawn if look.show says so
     bool cull = false;         // skip what cannot be seen (prepareSkipping); saves nothing in software
     double surfaceError = 0.5; // pixels that a level of detail of it may be off by; 0: the whole surface
 };

@@ -8,6 +8,7 @@
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
+uniform float u_behind; // so much further off lies all but faces of cuts, lattice units
 uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
 
 #ifdef RAYCAST_PROBE
@@ -36,7 +37,7 @@ void main() {
     if (!hit.any)
         discard;
     vec3 shown = from + hit.t * along, n = hitNormal(shown, hit);
-    vec4 clip = u_clipFromLattice * vec4(shown, 1.0);
+    vec4 clip = u_clipFromLattice * vec4(shown + (hit.face ? 0.0 : u_behind) * along, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 #ifdef RAYCAST_PROBE
     o_normal = vec4(n, hit.t);
