@@ -26,16 +26,16 @@ vec4 nodeOf(uint texel, int side) {
 }
 #endif
 
-// Whose a voxel is: how far outside of the cell (11 bits), then whether it is a copy of a cell that a cut crosses, then the cell:
+// Whose a voxel is: how far outside of the cell (11 bits), then whether a cut is beside the cell, then the cell:
 // the least word has it.
 const uint kNobody = 0xffffffffu;
-uint ownerOf(float outside, bool copy, uint cell) {
-    return uint(min(outside * 950.0, 2046.0)) << 21 | uint(copy) << 20 | cell;
+uint ownerOf(float outside, bool beside, uint cell) {
+    return uint(min(outside * 950.0, 2046.0)) << 21 | uint(beside) << 20 | cell;
 }
 uint outsideOf(uint owner) {
     return owner >> 21;
 }
-/// Is it claimed by a copy that does not hold it?
+/// Is it claimed by a cell beside a cut that does not hold it, so that tissue goes on there?
 bool goesOn(uint owner) {
     return owner != kNobody && outsideOf(owner) != 0u && (owner >> 20 & 1u) != 0u;
 }

@@ -40,11 +40,11 @@ float acrossBy(vec3 s) {
 
 void claim(uint cell, int side) {
     vec3 low = s_corner[0].xyz, high = low, corner[8];
-    bool copy = false; // of a cell that a cut crosses
+    bool beside = false; // a cut
     for (int i = 0; i < 8; ++i) {
         corner[i] = s_corner[i].xyz;
 #ifdef WARP_CUT
-        copy = copy || s_corner[i].w < 0.0;
+        beside = beside || s_corner[i].w < SRS_WARP_BESIDE;
 #endif
         low = min(low, corner[i]);
         high = max(high, corner[i]);
@@ -62,7 +62,7 @@ void claim(uint cell, int side) {
         float away = outsideBy(s), across = acrossBy(s);
         if (away <= SRS_WARP_REACH && across <= SRS_WARP_ACROSS)
             imageAtomicMin(i_owner, voxel + ivec3(0, 0, side * u_size.z),
-                           ownerOf(away + across, copy, cell));
+                           ownerOf(away + across, beside, cell));
     }
 }
 

@@ -15,7 +15,7 @@ void main() {
     int side = u_side;
     uint owner = imageLoad(i_owner, voxel + ivec3(0, 0, side * u_size.z)).x;
 #ifdef WARP_CUT
-    // A place is of the cell that it is nearest to, whosever that is; but a copy goes on past the cut, on its own side alone.
+    // A place is of the cell that it is nearest to, whosever that is; but what goes on past a cut does so on its own side alone.
     uint other = imageLoad(i_owner, voxel + ivec3(0, 0, (1 - side) * u_size.z)).x;
     if (outsideOf(other) < outsideOf(owner) && !goesOn(owner) && !goesOn(other)) {
         side = 1 - side;

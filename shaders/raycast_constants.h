@@ -25,6 +25,7 @@
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
 #define SRS_WARP_ACROSS 1.1         // spacings: so far beyond a cut its side goes on
+#define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
 #define SRS_WARP_STEPS 8            // Newton's
 #define SRS_WARP_GROUP 32
 

@@ -1,10 +1,13 @@
 // The simulation's cuts in what is ray-cast, where the answer is known: a ball that a blade cut through,
 // whose halves are moved and turned apart, against the rays' closed form.
+#include "render/cut_surface.h"
 #include "render/lattice_warp.h"
 #include "render/mapping_measures.h"
 #include "render/raycaster.h"
+#include "render/surface_passes.h"
 #include "shaders/shared_constants.h"
 #include "sim/blade.h"
+#include "sim/pieces.h"
 #include "tests/gl_fixture.h"
 #include "tests/render/shapes.h"
 
@@ -37,6 +40,36 @@ struct Met {
     bool any = false, face = false;
     double t = std::numeric_limits<double>::infinity();
     glm::dvec3 normal{0};
+};
+
+/// Depths of a picture of what `draw` draws, 0 to 1.
+class Drawn {
+public:
+    template <class Draw>
+    explicit Drawn(const Draw& draw) : depths_(std::size_t(kWidth * kRows)) {
+        gpu::Texture2D colour("colour", GL_RGBA8, kWidth, kRows),
+            depth("depth", GL_DEPTH_COMPONENT32F, kWidth, kRows);
+        gpu::Framebuffer target("depths");
+        target.attach(GL_COLOR_ATTACHMENT0, colour);
+        target.attach(GL_DEPTH_ATTACHMENT, depth);
+        target.setDrawBuffers(1);
+        target.bind(kWidth, kRows);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glEnable(GL_DEPTH_TEST);
+        glEnable(GL_CULL_FACE);
+        draw();
+        glDisable(GL_CULL_FACE);
+        glDisable(GL_DEPTH_TEST);
+        depth.download(depths_.data(), depths_.size() * sizeof(float));
+    }
+    /// \param y from above
+    double at(int x, int y) const { return depths_[std::size_t((kRows - 1 - y) * kWidth + x)]; }
+    static double perMetre(const CameraView& orthographic) {
+        return 0.5 * std::abs(orthographic.clipFromCamera[2][2]);
+    }
+
+private:
+    std::vector<float> depths_;
 };
 
 class GlRaycastCut : public test::GlTest {
@@ -86,24 +119,32 @@ protected:
         return glm::dot(rest - middle_ - glm::dvec3(kPlane, 0, 0), normal_);
     }
 
-    /// Cuts through the whole ball at rest, and moves the halves apart.
-    void cutAndOpen() {
+    /// Through the whole ball at rest.
+    sim::Stroke stroke() const {
         sim::Stroke stroke;
         for (const int end : {0, 1}) {
             const double z = end ? 8 : -8, x = kPlane + kTilt * z;
             stroke.from[std::size_t(end)] = lattice_.toWorld(middle_ + glm::dvec3(x, 8, z));
             stroke.to[std::size_t(end)] = lattice_.toWorld(middle_ + glm::dvec3(x, -8, z));
         }
-        mask_->paint(*state_, lattice_, stroke);
+        return stroke;
+    }
+
+    /// What it cut, the halves moved apart.
+    sim::LatticeState cutAndOpened() const {
         sim::LatticeState now = sim::restState(lattice_);
         now.connections = lattice_.connections;
-        sim::cutConnections(lattice_, now.positions, toLattice(stroke, lattice_), now.connections);
+        sim::cutConnections(lattice_, now.positions, toLattice(stroke(), lattice_), now.connections);
         for (std::size_t node = 0; node < lattice_.nodeCount(); ++node) {
             const glm::dvec3 rest = lattice_.restPosition(node);
             const Half& half = halves_[side(rest) > 0 ? 0 : 1];
             now.positions[node] = glm::vec3(half.turn * (rest - middle_) + middle_ + half.move);
         }
-        state_->upload(now);
+        return now;
+    }
+    void cutAndOpen() {
+        mask_->paint(*state_, lattice_, stroke());
+        state_->upload(cutAndOpened());
         ASSERT_TRUE(warp_->update(*state_, &*mask_).ok());
     }
 
@@ -301,6 +342,64 @@ TEST_F(GlRaycastCut, WhereNothingOpensTheBallStaysABall) {
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(kerf, 20);
     EXPECT_LT(kerf, 600);
+}
+
+// Drawn beside each other: the surface as trilinear mapping has it, and what is ray-cast through that map's
+// inverse. Where the surface is met both have one depth, within half a voxel or within a pixel beside; the
+// surface hides no face of a cut.
+TEST_F(GlRaycastCut, TheSurfaceAndWhatIsRayCastAgreeToAPixel) {
+    std::vector<SurfaceBinding> bindings = {bindSurface(lattice_, mesh_, sim::Mapping::trilinear)};
+    auto passes = SurfacePasses::create(lattice_, mesh_, bindings, state_->layout());
+    ASSERT_TRUE(passes.ok());
+    for (const bool cut : {false, true}) {
+        sim::LatticeState now =
+            deformedState(lattice_, [&](const glm::dvec3& q) { return bend(q, middle_, 14.0); });
+        if (cut) {
+            ASSERT_TRUE(passes->openMask(lattice_, state_->layout()).ok());
+            state_->upload(sim::restState(lattice_)); // as it was cut
+            passes->mask()->paint(*state_, lattice_, stroke());
+            mask_->paint(*state_, lattice_, stroke());
+            now = cutAndOpened();
+            bindings = {
+                expressBinding(bindings[0], lattice_, mesh_, sim::Mapping::trilinear, now.connections)};
+            const CutSurface left =
+                cutSurface(lattice_, mesh_, bindings[0], now.connections, mask_->nodeSides());
+            const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice_, now.connections);
+            ASSERT_TRUE(passes->show(left, lattice_, mesh_, bindings, boundary, state_->layout()).ok());
+        }
+        state_->upload(now);
+        ASSERT_TRUE(warp_->update(*state_, cut ? &*mask_ : nullptr).ok());
+        const View view = this->view(glm::normalize(glm::dvec3(0.7, -0.2, -0.7)));
+        const Drawn surface([&] { passes->drawDepth(*state_, view.frame, SurfaceStage::inCells); }),
+            cast([&] { EXPECT_TRUE(caster_->draw(view.frame, {}).ok()); });
+        const std::vector<RaycastProbe> kinds = probe(view, Solid::solid);
+        const double most = 0.5 * volume_->grid().step * cast.perMetre(view.camera);
+        int met = 0, apart = 0, hidden = 0, faces = 0;
+        for (int y = 1; y + 1 < kRows; ++y)
+            for (int x = 1; x + 1 < kWidth; ++x) {
+                const RaycastProbe& kind = kinds[std::size_t(y * kWidth + x)];
+                const double depth = cast.at(x, y);
+                faces += kind.kind == RaycastProbe::cutFace;
+                double low = 1, high = 0; // of the surface, within a pixel
+                bool all = true;
+                for (int j = -1; j <= 1; ++j)
+                    for (int i = -1; i <= 1; ++i) {
+                        const double one = surface.at(x + i, y + j);
+                        low = std::min(low, one);
+                        high = one < 1 ? std::max(high, one) : high;
+                        all = all && one < 1;
+                    }
+                const bool near = depth > low - most && depth < high + most;
+                const bool before = all && high < depth - most;
+                met += kind.kind == RaycastProbe::surface;
+                apart += kind.kind == RaycastProbe::surface && !near;
+                hidden += before;
+            }
+        EXPECT_GT(met, 2000);
+        EXPECT_LT(apart, 0.002 * met) << apart << (cut ? ", cut" : "");
+        EXPECT_LT(hidden, 0.002 * met) << hidden << (cut ? ", cut" : "");
+        EXPECT_TRUE(!cut || faces > 300);
+    }
 }
 
 } // namespace
