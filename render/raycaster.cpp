@@ -39,6 +39,7 @@ Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceV
     made.origin_ = lattice.toWorld(glm::dvec3(0));
     made.unit_ = lattice.spacing;
     made.empty_ = gpu::VertexArray("deformation shader");
+    made.none_ = gpu::Texture2D("no map", GL_R8, 1, 1);
     made.setWarp(std::nullopt);
     return made;
 }
@@ -131,7 +132,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     if (probe) {
         program.set("u_eye", frame.eye);
     } else {
-        frame.setLight(program);
+        frame.setTissueLight(program, none_);
         program.set("u_skin", look.skin).set("u_inner", look.inner).set("u_flesh", look.flesh);
     }
     program.use();

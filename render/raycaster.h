@@ -92,6 +92,7 @@ private:
     std::optional<TextureMapping> mapping_; // m
     glm::dvec3 lowest_{0}, highest_{0};
     gpu::VertexArray empty_;
+    gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     std::map<Variant, gpu::Program> programs_;
 };
 

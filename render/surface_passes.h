@@ -212,7 +212,7 @@ private:
     std::optional<Textures> textures_;
     gpu::Buffer uvs_; // TextureVertex, in the buffers' order
     std::map<SurfaceStage, gpu::Program> depthPrograms_, blendDepthPrograms_; // made when first drawn
-    gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
+    gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     RestBox restBox_;
     std::optional<CutMask> mask_;
     std::optional<SideNodes> sideNodes_; // of stage inCells, where there is a mask
