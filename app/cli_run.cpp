@@ -23,7 +23,8 @@ namespace serosa::app {
 namespace {
 
 struct RunArguments {
-    std::string scene, model, lengthUnit, gl = "auto", size, mapping, show, out, spacing, layout = "auto", from;
+    std::string scene, model, lengthUnit, gl = "auto", size, mapping, show, out, spacing, layout = "auto",
+                                          from;
     std::optional<std::string> solver;
     int frames = 0;
     std::string upAxis;

@@ -180,8 +180,8 @@ static Status prepareImplicit(RunParts& parts, std::size_t i) {
     const sim::Organ& wanted = parts.scene.organs[i];
     if (wanted.levels > 1)
         return Error{parts.scene.file.string() +
-                     ": what is ray-cast needs organs of one level of detail, and " + wanted.name +
-                     " has " + std::to_string(wanted.levels)};
+                     ": what is ray-cast needs organs of one level of detail, and " + wanted.name + " has " +
+                     std::to_string(wanted.levels)};
     const sim::Scene& scene = parts.scene;
     const bool moves = wanted.pose || scene.gravity != glm::dvec3(0) || !scene.tools.empty() ||
                        !scene.bodies.empty() || !scene.threads.empty() || !scene.cuts.empty() ||
