@@ -23,7 +23,8 @@ namespace serosa::app {
 namespace {
 
 struct RunArguments {
-    std::string scene, model, lengthUnit, gl = "auto", size, mapping, out, spacing, layout = "auto", from;
+    std::string scene, model, lengthUnit, gl = "auto", size, mapping, show, out, spacing, layout = "auto",
+                                          from;
     std::optional<std::string> solver;
     int frames = 0;
     std::string upAxis;
@@ -80,6 +81,11 @@ Result<RunOptions> runOptions(const std::string& command, const RunArguments& gi
                       wordIndex("--mapping", given.mapping, sim::findSceneKey("look", "mapping")->words));
         options.mapping = sim::Mapping(mapping);
     }
+    if (!given.show.empty()) {
+        SEROSA_ASSIGN(const int show,
+                      wordIndex("--show", given.show, sim::findSceneKey("look", "show")->words));
+        options.show = sim::Show(show);
+    }
     if (given.nodes > 0)
         options.nodes = given.nodes;
     if (!given.spacing.empty()) {
@@ -113,6 +119,10 @@ void addSceneOptions(CLI::App& command, RunArguments& given) {
                     "how the surface follows the lattice: one-to-one, triangle, curvature, chosen, "
                     "normal-offset, trilinear, node-frames")
         ->type_name("M");
+    command
+        .add_option("--show", given.show,
+                    "what is drawn of organs: surface, implicit (ray-cast through the lattice), both")
+        ->type_name("S");
     command.add_option("--nodes", given.nodes, "lattice nodes aimed at (default: 20000)")
         ->type_name("N")
         ->check(CLI::Range(8, 1000000000));

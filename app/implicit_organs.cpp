@@ -1,6 +1,8 @@
 // See app/implicit_organs.h.
 #include "app/implicit_organs.h"
 
+#include "base/check.h"
+
 namespace serosa::app {
 
 namespace {
@@ -67,12 +69,14 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     return {};
 }
 
-std::vector<render::Raycaster*>
-ImplicitOrgans::casters(const std::vector<const sim::StateTextures*>& states) {
+std::vector<render::Raycaster*> ImplicitOrgans::casters(const std::vector<const sim::StateTextures*>& states,
+                                                        const render::SurfaceRenderer& drawn) {
     std::vector<render::Raycaster*> all;
     for (std::size_t i = 0; i < organs_.size(); ++i) {
-        if (organs_[i].lattice)
-            organs_[i].lattice->update(*states[i]);
+        if (organs_[i].lattice) {
+            const Status updated = organs_[i].lattice->update(*states[i], drawn.cutMask(i));
+            SEROSA_CHECK(updated.ok(), "the driver compiles GLSL 4.5");
+        }
         all.push_back(organs_[i].caster.get());
     }
     return all;

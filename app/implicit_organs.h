@@ -4,6 +4,7 @@
 
 #include "base/result.h"
 #include "render/raycaster.h"
+#include "render/surface_renderer.h"
 #include "sim/scene.h"
 #include "sim/state_textures.h"
 #include "sim/triangle_mesh.h"
@@ -23,8 +24,10 @@ public:
     Status add(const sim::Scene& scene, const sim::TriangleMesh& metres, const sim::Lattice& lattice,
                const sim::TextureLayout& layout, bool moves);
     bool empty() const { return organs_.empty(); }
-    /// Casters of the organs as their states have them, in the order in which they were added.
-    std::vector<render::Raycaster*> casters(const std::vector<const sim::StateTextures*>& states);
+    /// Casters of the organs as their states have them, in the order in which they were added. \param drawn
+    /// has their cut masks
+    std::vector<render::Raycaster*> casters(const std::vector<const sim::StateTextures*>& states,
+                                            const render::SurfaceRenderer& drawn);
 
 private:
     struct Organ { // kept where it is: parts point at each other

@@ -269,7 +269,7 @@ private:
         render::View view{camera_, parts_.scene.light, parts_.scene.look,
                           render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
                           drawnThreads(parts_, player_.threads(), time)};
-        view.casters = parts_.implicit.casters(parts_.textures());
+        view.casters = parts_.implicit.casters(parts_.textures(), *parts_.renderer);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
     }

@@ -24,6 +24,7 @@ struct RunOptions {
     std::optional<int> frames;        // each of these replaces what the scene says
     std::optional<int> width, height; // pixels
     std::optional<sim::Mapping> mapping;
+    std::optional<sim::Show> show;
     std::optional<std::size_t> nodes; // of each organ
     std::optional<double> spacing;    // m
     std::filesystem::path out;        // empty: the scene's or model's name with "-out", in the current folder

@@ -30,6 +30,10 @@ Status applyOverrides(const RunOptions& options, sim::Scene& scene, std::size_t&
         scene.output.height = *options.height;
     if (options.mapping)
         scene.look.mapping = *options.mapping;
+    if (options.show)
+        scene.look.show = *options.show;
+    if (scene.look.show == sim::Show::both) // the mapping whose inverse is ray-cast
+        scene.look.mapping = sim::Mapping::trilinear;
     for (sim::Organ& organ : scene.organs) {
         if (options.nodes) {
             organ.nodes = *options.nodes;
@@ -176,8 +180,8 @@ static Status prepareImplicit(RunParts& parts, std::size_t i) {
     const sim::Organ& wanted = parts.scene.organs[i];
     if (wanted.levels > 1)
         return Error{parts.scene.file.string() +
-                     ": look.show = \"implicit\" needs organs of one level of detail, and " + wanted.name +
-                     " has " + std::to_string(wanted.levels)};
+                     ": what is ray-cast needs organs of one level of detail, and " + wanted.name + " has " +
+                     std::to_string(wanted.levels)};
     const sim::Scene& scene = parts.scene;
     const bool moves = wanted.pose || scene.gravity != glm::dvec3(0) || !scene.tools.empty() ||
                        !scene.bodies.empty() || !scene.threads.empty() || !scene.cuts.empty() ||
@@ -218,7 +222,7 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
         if (parts.organs[i]->solver)
             SEROSA_TRY(parts.renderer->prepareCuts(i, parts.organs[i]->lattice,
                                                    parts.organs[i]->textures().layout()));
-    for (std::size_t i = 0; i < parts.organs.size() && parts.scene.look.show == sim::Show::implicit; ++i)
+    for (std::size_t i = 0; i < parts.organs.size() && parts.scene.look.show != sim::Show::surface; ++i)
         SEROSA_TRY(prepareImplicit(parts, i));
     SEROSA_TRY(makeGroup(parts));
     parts.levels.resize(parts.organs.size());

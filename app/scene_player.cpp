@@ -72,6 +72,8 @@ void ScenePlayer::setCutMask(std::size_t i, std::string_view bytes) {
 
 void ScenePlayer::showCuts(std::size_t i, bool inMotion) {
     const OrganParts& organ = *parts_.organs[i];
+    inMotion = inMotion &&
+               parts_.scene.look.show != sim::Show::both; // what is ray-cast does not wait for what fades
     const std::vector<std::uint32_t> connections = organ.solver->state().connections;
     if (connections != shownConnections_[i] && parts_.coupled.placeOf(i) >= 0)
         parts_.coupled.group->reconnect(std::size_t(parts_.coupled.placeOf(i)));

@@ -237,7 +237,7 @@ private:
         redraws_ = std::max(0, redraws_ - 1);
         lastDraw_ = Clock::now();
         render::View view = currentView();
-        view.casters = parts_.implicit.casters(parts_.textures());
+        view.casters = parts_.implicit.casters(parts_.textures(), *parts_.renderer);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
         smooth(readings_.drawMs, 1e3 * secondsSince(lastDraw_));

@@ -41,6 +41,8 @@ public:
     /// Signed distance of each node to the nearest cut, spacings; SRS_MASK_FAR where none came near. Reads
     /// back.
     std::vector<float> nodeSides() const;
+    /// The same on the GPU: a float a node.
+    const gpu::Buffer& sides() const { return sides_; }
     /// Sets what shaders/cut_mask.glsl asks for.
     void bind(gpu::Program& program) const;
 

@@ -80,9 +80,9 @@ private:
 };
 
 /// Which of a vertex's nodes, and of the corners of its cell, lie on each side of a cut: bit 0 below, bit 1
-/// above. Bit 2: one of them lost a connection.
+/// above. Bit 2: one of them lost a connection. \param nodes null: the corners alone
 int around(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections,
-           const std::vector<float>& sides, const glm::dvec3& place, const glm::uvec3& nodes) {
+           const std::vector<float>& sides, const glm::dvec3& place, const glm::uvec3* nodes) {
     int found = 0;
     const auto look = [&](std::int64_t node) {
         if (node < 0)
@@ -93,8 +93,8 @@ int around(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connec
         if (std::abs(sides[i]) < float(SRS_MASK_REACH))
             found |= sides[i] < 0 ? 1 : 2;
     };
-    for (int i = 0; i < 3; ++i)
-        look(nodes[i]);
+    for (int i = 0; i < 3 && nodes; ++i)
+        look((*nodes)[i]);
     const glm::ivec3 cell = glm::ivec3(glm::floor(place)) + lattice.centre;
     for (int c = 0; c < 8; ++c)
         look(lattice.nodeAt(cell + sim::cornerOffset(c)));
@@ -133,10 +133,12 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
     const std::vector<glm::dvec3> normals = metres.vertexNormals();
     const ControlNodes nodes = controlNodes(lattice);
     const CutSides held(lattice, connections);
+    // In cells, a vertex follows their corners alone, as each side carries them (render/side_nodes.h).
+    const bool inCells = binding.mapping == sim::Mapping::trilinear;
     std::vector<int> near(binding.vertices.size());
     for (std::size_t v = 0; v < near.size(); ++v)
         near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
-                         binding.vertices[v].nodes);
+                         inCells ? nullptr : &binding.vertices[v].nodes);
 
     std::map<std::pair<std::uint32_t, int>, std::int64_t> copyOf; // -1: that side cannot carry the vertex
     const auto copy = [&](std::uint32_t v, int side) {
@@ -145,7 +147,7 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
             return found->second;
         const VertexBinding& own = binding.vertices[v];
         // Beside faces that are drawn whole a vertex stays as it is, unless it belongs to the other side.
-        if (liesOn(own, connections, sides, side) ||
+        if (inCells || liesOn(own, connections, sides, side) ||
             (near[v] != 7 && isHeld(held, own.nodes) && !liesOn(own, connections, sides, -side))) {
             found->second = std::int64_t(surface.vertices.size());
             surface.vertices.push_back({v, side, {}});
@@ -164,6 +166,8 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
     for (std::size_t f = 0; f < metres.faces.size(); ++f) {
         const glm::uvec3& face = metres.faces[f];
         const int all = near[face.x] | near[face.y] | near[face.z];
+        if (inCells && all != 4) // it tells by its sides whether a cut goes through, not by springs
+            surface.whole[f] = true;
         if (all != 7)
             continue;
         surface.whole[f] = false;

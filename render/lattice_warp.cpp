@@ -63,18 +63,51 @@ Result<LatticeWarp> LatticeWarp::create(const sim::Lattice& lattice, const sim::
     made.cells_ = gpu::Buffer("cells of a displacement", std::span<const WarpCell>(cells));
     made.nodes_ = gpu::Buffer("nodes of a displacement", std::span<const std::uint32_t>(nodes));
     made.box_ = gpu::Buffer("box of a displacement", kBoxBytes, nullptr);
-    made.texture_ = gpu::Texture3D("displacement of a lattice", GL_RGBA32F, size);
+    made.sides_[0] = gpu::Texture3D("displacement of a lattice", GL_RGBA32F, size);
     made.owner_ = gpu::Texture3D("owners of a displacement's voxels", GL_R32UI, size);
-    const gpu::ShaderLibrary library;
-    SEROSA_ASSIGN(made.bounds_, gpu::Program::create(library, {"lattice_warp_bounds.comp"}));
-    SEROSA_ASSIGN(made.frame_,
-                  gpu::Program::create(library, {"lattice_warp_bounds.comp"}, {{"WARP_FRAME", "1"}}));
-    SEROSA_ASSIGN(made.claim_, gpu::Program::create(library, {"lattice_warp_claim.comp"}));
-    SEROSA_ASSIGN(made.write_, gpu::Program::create(library, {"lattice_warp_write.comp"}));
+    made.lattice_ = &lattice;
+    made.layout_ = &layout;
+    SEROSA_ASSIGN(made.frame_, gpu::Program::create(gpu::ShaderLibrary(), {"lattice_warp_bounds.comp"},
+                                                    {{"WARP_FRAME", "1"}}));
+    SEROSA_ASSIGN(made.whole_, compile({}));
     return made;
 }
 
-void LatticeWarp::update(const sim::StateTextures& state) {
+Result<LatticeWarp::Programs> LatticeWarp::compile(const std::vector<gpu::ShaderDefine>& defines) {
+    const gpu::ShaderLibrary library;
+    Programs made;
+    SEROSA_ASSIGN(made.bounds, gpu::Program::create(library, {"lattice_warp_bounds.comp"}, defines));
+    SEROSA_ASSIGN(made.claim, gpu::Program::create(library, {"lattice_warp_claim.comp"}, defines));
+    SEROSA_ASSIGN(made.write, gpu::Program::create(library, {"lattice_warp_write.comp"}, defines));
+    return made;
+}
+
+Status LatticeWarp::openSides() {
+    SEROSA_ASSIGN(Programs programs, compile({{"WARP_CUT", "1"}}));
+    SEROSA_ASSIGN(SideNodes nodes, SideNodes::create(*lattice_, *layout_));
+    cut_.emplace(std::move(programs));
+    sideNodes_.emplace(std::move(nodes));
+    sides_[1] = gpu::Texture3D("displacement below cuts", GL_RGBA32F, size());
+    owner_ = gpu::Texture3D("owners of a displacement's voxels", GL_R32UI, size() * glm::ivec3(1, 1, 2));
+    return {};
+}
+
+void LatticeWarp::setNodes(gpu::Program& program, const sim::StateTextures& state) const {
+    if (mask_)
+        program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
+    else
+        program.texture("t_positions", state.positions());
+    program.buffer("b_cells", cells_).buffer("b_box", box_);
+}
+
+Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask) {
+    if (mask && !cut_)
+        SEROSA_TRY(openSides());
+    mask_ = mask;
+    if (mask)
+        sideNodes_->update(state, *mask);
+    Programs& programs = mask ? *cut_ : whole_;
+    const int sides = mask ? 2 : 1;
     const auto barrier = [] {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -82,30 +115,43 @@ void LatticeWarp::update(const sim::StateTextures& state) {
     constexpr std::uint32_t kEmpty[8] = {0xffffffffu, 0xffffffffu, 0xffffffffu, 0, 0, 0, 0, 0};
     box_.upload(0, sizeof(kEmpty), kEmpty);
     owner_.clear(0xffffffffu);
-    bounds_.set("u_nodes", int(nodeCount_));
-    bounds_.texture("t_positions", state.positions()).buffer("b_nodes", nodes_).buffer("b_box", box_);
-    bounds_.dispatch({int(nodeCount_), 1, 1});
+    for (int side = 0; side < sides; ++side) {
+        programs.bounds.set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
+        programs.bounds.texture("t_positions", !mask       ? state.positions()
+                                               : side == 0 ? sideNodes_->above()
+                                                           : sideNodes_->below());
+        programs.bounds.dispatch({int(nodeCount_), 1, 1});
+    }
     barrier();
     frame_.set("u_size", size()).buffer("b_box", box_);
     frame_.dispatch({1, 1, 1});
     barrier();
-    claim_.set("u_size", size()).set("u_cells", int(cellCount_));
-    claim_.texture("t_positions", state.positions()).buffer("b_cells", cells_).buffer("b_box", box_);
-    claim_.image("i_owner", owner_, GL_READ_WRITE);
-    claim_.dispatch({SRS_WARP_GROUP * int(std::min<std::size_t>(cellCount_, 60000)), 1, 1}); // a group a cell
+    setNodes(programs.claim, state);
+    programs.claim.set("u_size", size()).set("u_cells", int(cellCount_));
+    programs.claim.image("i_owner", owner_, GL_READ_WRITE);
+    const int groups = int(std::min<std::size_t>(cellCount_, 60000)); // one a cell
+    programs.claim.dispatch({SRS_WARP_GROUP * groups, 1, 1});
     barrier();
-    write_.set("u_size", size());
-    write_.texture("t_positions", state.positions()).buffer("b_cells", cells_).buffer("b_box", box_);
-    write_.image("i_owner", owner_, GL_READ_ONLY).image("i_displacement", texture_, GL_WRITE_ONLY);
-    write_.dispatch(size());
+    setNodes(programs.write, state);
+    for (int side = 0; side < sides; ++side) {
+        programs.write.set("u_size", size()).set("u_side", side);
+        programs.write.image("i_owner", owner_, GL_READ_ONLY);
+        programs.write.image("i_displacement", sides_[std::size_t(side)], GL_WRITE_ONLY);
+        programs.write.dispatch(size());
+    }
     barrier();
+    return {};
 }
 
 void LatticeWarp::bind(gpu::Program& program) const {
-    program.texture("t_lattice", texture_).buffer("b_box", box_);
+    program.texture("t_lattice", sides_[0]).buffer("b_box", box_);
+    if (!mask_)
+        return;
+    program.texture("t_latticeBelow", sides_[1]);
+    mask_->bind(program);
 }
 
-LatticeWarp::Read LatticeWarp::read() const {
+LatticeWarp::Read LatticeWarp::read(std::size_t side) const {
     glFinish();
     Read read;
     glm::vec4 frame[2];
@@ -113,7 +159,7 @@ LatticeWarp::Read LatticeWarp::read() const {
     read.lowest = glm::dvec3(frame[0]);
     read.step = glm::dvec3(frame[1]);
     read.texels.resize(std::size_t(size().x) * std::size_t(size().y) * std::size_t(size().z));
-    texture_.download(GL_RGBA, GL_FLOAT, read.texels.size() * sizeof(glm::vec4), read.texels.data());
+    sides_[side].download(GL_RGBA, GL_FLOAT, read.texels.size() * sizeof(glm::vec4), read.texels.data());
     return read;
 }
 

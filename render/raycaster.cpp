@@ -9,6 +9,8 @@ namespace serosa::render {
 
 namespace {
 
+constexpr double kBehind = 1; // voxels of the field, where the surface itself is drawn, too
+
 GLenum glFormat(TexelFormat format) {
     return format == TexelFormat::unorm8 ? GL_RGBA8 : format == TexelFormat::half ? GL_RGBA16F : GL_RGBA32F;
 }
@@ -27,6 +29,7 @@ RaycastLook raycastLook(const sim::Look& look) {
                  : look.interior == sim::Interior::solid ? Solid::solid
                                                          : Solid::shell;
     made.thickness = look.shell;
+    made.closes = look.show == sim::Show::both;
     return made;
 }
 
@@ -36,6 +39,7 @@ Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceV
     made.origin_ = lattice.toWorld(glm::dvec3(0));
     made.unit_ = lattice.spacing;
     made.empty_ = gpu::VertexArray("deformation shader");
+    made.none_ = gpu::Texture2D("no map", GL_R8, 1, 1);
     made.setWarp(std::nullopt);
     return made;
 }
@@ -84,6 +88,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
                                               {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
     if (variant.lattice)
         defines.push_back({"RAYCAST_LATTICE", "1"});
+    if (variant.cut)
+        defines.push_back({"RAYCAST_CUT", "1"});
     if (variant.warped)
         defines.push_back({"RAYCAST_WARP", "1"});
     if (variant.probe)
@@ -95,7 +101,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(), probe}));
+                  program({look.solid, look.search, lattice_ != nullptr, lattice_ && lattice_->isCut(),
+                           mapping_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -111,6 +118,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     program.texture("t_field", volume_->texture());
     program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
     program.set("u_thickness", float(look.thickness / unit_));
+    program.set("u_behind", float(look.closes ? kBehind * voxel : 0));
     if (mapping_) {
         glm::dmat4 objectFromWorld(1 / unit_);
         objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
@@ -124,7 +132,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     if (probe) {
         program.set("u_eye", frame.eye);
     } else {
-        frame.setLight(program);
+        frame.setTissueLight(program, none_);
         program.set("u_skin", look.skin).set("u_inner", look.inner).set("u_flesh", look.flesh);
     }
     program.use();

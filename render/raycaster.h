@@ -36,6 +36,7 @@ struct RaycastLook {
     double step = 0.5;        // between samples, voxels of the distance field
     double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
+    bool closes = false;      // a surface that is drawn beside it: all but faces of cuts lies a little behind
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
 
@@ -74,7 +75,7 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool lattice, warped, probe;
+        bool lattice, cut, warped, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -91,6 +92,7 @@ private:
     std::optional<TextureMapping> mapping_; // m
     glm::dvec3 lowest_{0}, highest_{0};
     gpu::VertexArray empty_;
+    gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     std::map<Variant, gpu::Program> programs_;
 };
 

@@ -253,8 +253,7 @@ Result<SurfacePasses> SurfacePasses::create(const sim::Lattice& lattice, const s
     SurfacePasses passes;
     passes.bounds_ = restBox(lattice, metres);
     passes.meshVertices_ = metres.positions.size();
-    passes.noShadow_ = gpu::Texture2D("no shadow", GL_DEPTH_COMPONENT32F, 1, 1);
-    passes.noOcclusion_ = gpu::Texture2D("no occlusion", GL_R8, 1, 1);
+    passes.none_ = gpu::Texture2D("no map", GL_R8, 1, 1);
     if (detail)
         passes.createTextures(*detail, lattice);
     sim::TriangleMesh plain; // without texture there are no seams
@@ -280,6 +279,10 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
     program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::inCells)
         program.texture("t_cells", cells_);
+    if (stage == SurfaceStage::inCells && sideNodes_) {
+        sideNodes_->update(state, *mask_);
+        program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
+    }
     if (stage == SurfaceStage::nodeFrames) {
         frames_->run(state.positions());
         program.texture("t_frames", frames_->frames());
@@ -318,16 +321,7 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
     }
     if (stage == SurfaceStage::nodes)
         program.set("u_colour", glm::vec4(glm::sqrt(bare), 1));
-    frame.setLight(program);
-    program.set("u_shadows", frame.shadow ? 1 : 0).set("u_occlusion", frame.occlusion ? 1 : 0);
-    program.texture("t_shadow", frame.shadow ? *frame.shadow : noShadow_);
-    program.texture("t_occlusion", frame.occlusion ? *frame.occlusion : noOcclusion_);
-    program.set("u_shadowFromLattice", frame.shadowFromLattice).set("u_shadowTexel", frame.shadowTexel);
-    std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
-    for (std::size_t i = 0; i < tools.size() && i < frame.shades.size(); ++i)
-        tools[i] = frame.shades[i];
-    program.set("u_tools", std::span<const glm::vec4>(tools));
-    program.set("u_toolCount", int(std::min(tools.size(), frame.shades.size())));
+    frame.setTissueLight(program, none_);
     return program;
 }
 

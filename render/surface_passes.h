@@ -8,6 +8,7 @@
 #include "render/cut_surface.h"
 #include "render/frame.h"
 #include "render/frame_pass.h"
+#include "render/side_nodes.h"
 #include "render/surface_binding.h"
 #include "render/surface_clusters.h"
 #include "render/surface_seams.h"
@@ -211,9 +212,10 @@ private:
     std::optional<Textures> textures_;
     gpu::Buffer uvs_; // TextureVertex, in the buffers' order
     std::map<SurfaceStage, gpu::Program> depthPrograms_, blendDepthPrograms_; // made when first drawn
-    gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
+    gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     RestBox restBox_;
     std::optional<CutMask> mask_;
+    std::optional<SideNodes> sideNodes_; // of stage inCells, where there is a mask
 };
 
 } // namespace serosa::render

@@ -13,6 +13,10 @@ namespace serosa::render {
 Status SurfacePasses::openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
     SEROSA_ASSIGN(CutMask mask, CutMask::create(lattice, layout));
     mask_.emplace(std::move(mask));
+    if (draws(SurfaceStage::inCells)) {
+        SEROSA_ASSIGN(SideNodes nodes, SideNodes::create(lattice, layout));
+        sideNodes_.emplace(std::move(nodes));
+    }
     anyConstant_ = true; // vertices along cuts ride in the constant basis
     return recompile();
 }

@@ -205,7 +205,7 @@ void SurfaceRenderer::Impl::drawDepths(const OrganStates& states, const View& vi
     std::vector<Frame> frames;
     for (std::size_t i = 0; i < organs.size(); ++i) {
         frames.push_back(makeFrame(organs[i].placement, camera, view.light, view.look, width, height));
-        if (view.look.surface && view.look.show == sim::Show::surface)
+        if (view.look.surface && view.look.show != sim::Show::implicit)
             organs[i].surface.drawDepth(*states[i], frames[i], stageOf(view.look.mapping));
     }
     std::vector<DrawnShape> solid; // floors fade out: they throw no shadow
@@ -278,13 +278,13 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
         in.organs[i].surface.draw(*states[i], frames[i], SurfaceStage::nodes, sim::SurfaceColour::tissue,
                                   kCoreColour);
     glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
-    const bool implicit = view.look.show == sim::Show::implicit;
-    for (std::size_t i = 0; i < view.casters.size() && implicit; ++i) {
+    const bool surface = view.look.surface && view.look.show != sim::Show::implicit;
+    for (std::size_t i = 0; i < in.organs.size() && surface; ++i)
+        in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
+    for (std::size_t i = 0; i < view.casters.size() && view.look.show != sim::Show::surface; ++i) {
         const Status drawn = view.casters[i]->draw(frames[i], raycastLook(view.look));
         SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5");
     }
-    for (std::size_t i = 0; i < in.organs.size() && view.look.surface && !implicit; ++i)
-        in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     std::vector<const sim::Lattice*> placements;
     for (const DrawnOrgan& organ : in.organs)
@@ -321,6 +321,10 @@ Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
     SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
     surface.mask()->paint(state, lattice, stroke);
     return {};
+}
+
+const CutMask* SurfaceRenderer::cutMask(std::size_t organ) const {
+    return impl_->organs.at(organ).surface.mask();
 }
 
 std::string SurfaceRenderer::saveCuts(std::size_t organ) const {

@@ -21,6 +21,7 @@
 
 namespace serosa::render {
 
+class CutMask;   // render/cut_mask.h
 class Raycaster; // render/raycaster.h
 
 /// What is drawn in one picture.
@@ -31,7 +32,7 @@ struct View {
     std::vector<DrawnShape> shapes;       // tools and bodies (render/tool_shapes.h)
     std::vector<DrawnThread> threads;     // between organs, drawn where tools are
     bool wireframe = false;               // the surface as the edges of its front faces
-    std::vector<Raycaster*> casters = {}; // one an organ, drawn in place of surfaces if look.show says so
+    std::vector<Raycaster*> casters = {}; // one an organ, drawn if look.show says so
     bool cull = false;         // skip what cannot be seen (prepareSkipping); saves nothing in software
     double surfaceError = 0.5; // pixels that a level of detail of it may be off by; 0: the whole surface
 };
@@ -98,6 +99,8 @@ public:
     /// of CutMask::create.
     Status paintCut(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
                     const sim::Stroke& stroke);
+    /// What strokes left of an organ, for other passes; null where no mask was made.
+    const CutMask* cutMask(std::size_t organ) const;
     /// The mask of an organ for snapshots, empty where none was made, and set again; empty: nothing is cut.
     /// Errors: as paintCut; bytes of another mask.
     std::string saveCuts(std::size_t organ) const;

@@ -39,7 +39,9 @@ uint word(vec2 d) {
     float mask = 0.5 + 0.5 * float(u_voxels) * (d.x - SRS_MASK_WIDTH / float(u_voxels));
     float reach = 1.0 / SRS_MASK_REACH;
     bool burnt = u_kind == SRS_STROKE_CAUTERIZE;
-    return packUnorm4x8(vec4(1.0, burnt ? 1.0 : 0.5 + 0.5 * reach * d.y, burnt ? 1.0 : reach * d.x, mask));
+    uint side = burnt ? 0xffffu : uint(round(65535.0 * clamp(0.5 + 0.5 * reach * d.y, 0.0, 1.0)));
+    vec4 rest = vec4(0.0, 0.0, burnt ? 1.0 : reach * d.x, mask);
+    return packUnorm4x8(rest) | (side >> 8 & 0xffu) << 8 | side & 0xffu;
 }
 
 void paint(MaskCell cell, ivec3 lowest) {

@@ -2,24 +2,51 @@
 #include "lattice_warp_box.glsl"
 #include "raycast_constants.h"
 
+#ifdef WARP_CUT
+#include "shared_constants.h"
+#endif
+
 struct WarpCell {
     vec4 rest; // of its lowest corner
     uint texels[8];
 };
 layout(std430) restrict readonly buffer b_cells { WarpCell b_cell[]; };
+#ifdef WARP_CUT
+uniform sampler2D t_above, t_below; // nodes as each side of the cuts carries them (render/side_nodes.h)
+const int kSides = 2;
+vec4 nodeOf(uint texel, int side) {
+    ivec2 at = ivec2(texel & 0xffffu, texel >> 16);
+    return side == 0 ? texelFetch(t_above, at, 0) : texelFetch(t_below, at, 0);
+}
+#else
 uniform sampler2D t_positions;
+const int kSides = 1;
+vec4 nodeOf(uint texel, int side) {
+    return texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0);
+}
+#endif
+
+// Whose a voxel is: how far outside of the cell (11 bits), then whether a cut is beside the cell, then the cell:
+// the least word has it.
+const uint kNobody = 0xffffffffu;
+uint ownerOf(float outside, bool beside, uint cell) {
+    return uint(min(outside * 950.0, 2046.0)) << 21 | uint(beside) << 20 | cell;
+}
+uint outsideOf(uint owner) {
+    return owner >> 21;
+}
+/// Is it claimed by a cell beside a cut that does not hold it, so that tissue goes on there?
+bool goesOn(uint owner) {
+    return owner != kNobody && outsideOf(owner) != 0u && (owner >> 20 & 1u) != 0u;
+}
+uint cellOf(uint owner) {
+    return owner & 0xfffffu;
+}
 
 /// x(s) = sum of the coefficients times 1, x, y, z, xy, xz, yz, xyz.
 struct Trilinear {
     vec3 c[8];
 };
-
-void cornersOf(uint cell, out vec3 corner[8]) {
-    for (int k = 0; k < 8; ++k) {
-        uint texel = b_cell[cell].texels[k];
-        corner[k] = texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0).xyz;
-    }
-}
 
 Trilinear trilinearOf(vec3 p[8]) {
     Trilinear t;
@@ -53,6 +80,8 @@ bool invert(Trilinear t, vec3 at, out vec3 s) {
         mat3 slope = slopeAt(t, s);
         if (abs(determinant(slope)) < 1e-9)
             return false;
+        if (dot(miss, miss) < 1e-13)
+            return true;
         s = clamp(s - inverse(slope) * miss, vec3(-2.0), vec3(3.0));
         miss = valueAt(t, s) - at;
     }

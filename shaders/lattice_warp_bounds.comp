@@ -1,6 +1,9 @@
-// First passes of render/lattice_warp.h: bounds of the nodes; WARP_FRAME: the voxels' box from them.
+// First passes of render/lattice_warp.h: bounds of the nodes; WARP_CUT: of those of a side; WARP_FRAME: the voxels' box.
 #version 450 core
 #include "lattice_warp_box.glsl"
+#ifdef WARP_CUT
+#include "shared_constants.h"
+#endif
 #ifdef WARP_FRAME
 layout(local_size_x = 1) in;
 uniform ivec3 u_size;
@@ -24,7 +27,11 @@ void main() {
     if (node >= u_nodes)
         return;
     uint texel = b_texel[node];
-    vec3 at = texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0).xyz;
+    vec4 at = texelFetch(t_positions, ivec2(texel & 0xffffu, texel >> 16), 0);
+#ifdef WARP_CUT
+    if (at.w < 0.0) // is on the other side of a cut, or loose
+        return;
+#endif
     for (int axis = 0; axis < 3; ++axis) {
         atomicMin(b_bound[axis], ordered(at[axis]));
         atomicMax(b_bound[3 + axis], ordered(at[axis]));

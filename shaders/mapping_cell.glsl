@@ -6,14 +6,30 @@ layout(location = 2) in vec3 a_offset; // from the cell's lowest corner, 0 .. 1
 
 uniform usampler2D t_cells; // two texels a cell: texels y << 16 | x of its corners (at +x if c & 1, +y if c & 2, +z if c & 4)
 
+#ifdef SURFACE_CUT // by the nodes as the side of the cut carries them (render/side_nodes.h): the map that is ray-cast
+#include "surface_rest.glsl"
+uniform sampler2D t_above, t_below;
+
+vec3 cornerAt(uint texel) {
+    float side = vertexSide();
+    ivec2 at = ivec2(texel & 0xffffu, texel >> 16);
+    vec4 carried = side > 0.0 ? texelFetch(t_above, at, 0) : texelFetch(t_below, at, 0);
+    return side == 0.0 || carried.w == SRS_SIDE_NONE ? fetchNode(texel).xyz : carried.xyz;
+}
+#else
+vec3 cornerAt(uint texel) {
+    return fetchNode(texel).xyz;
+}
+#endif
+
 Mapped mapVertex() {
     ivec2 at = ivec2(2u * a_cell & (SRS_TABLE_WIDTH - 1u), 2u * a_cell / SRS_TABLE_WIDTH);
     uvec4 low = texelFetch(t_cells, at, 0), high = texelFetch(t_cells, at + ivec2(1, 0), 0);
-    vec3 p0 = fetchNode(low.x).xyz;
+    vec3 p0 = cornerAt(low.x);
     // Relative to one corner: smaller numbers, so less is rounded off
-    vec3 p1 = fetchNode(low.y).xyz - p0, p2 = fetchNode(low.z).xyz - p0, p3 = fetchNode(low.w).xyz - p0;
-    vec3 p4 = fetchNode(high.x).xyz - p0, p5 = fetchNode(high.y).xyz - p0, p6 = fetchNode(high.z).xyz - p0,
-         p7 = fetchNode(high.w).xyz - p0;
+    vec3 p1 = cornerAt(low.y) - p0, p2 = cornerAt(low.z) - p0, p3 = cornerAt(low.w) - p0;
+    vec3 p4 = cornerAt(high.x) - p0, p5 = cornerAt(high.y) - p0, p6 = cornerAt(high.z) - p0,
+         p7 = cornerAt(high.w) - p0;
     vec3 f = a_offset;
     vec3 x0 = f.x * p1, x1 = mix(p2, p3, f.x), x2 = mix(p4, p5, f.x), x3 = mix(p6, p7, f.x); // along x
     vec3 y0 = mix(x0, x1, f.y), y1 = mix(x2, x3, f.y);

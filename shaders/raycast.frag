@@ -3,11 +3,17 @@
 // RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; kind and rest position.
 #include "raycast_search.glsl"
 #include "lighting.glsl"
+#ifndef RAYCAST_PROBE
+#include "shared_constants.h"
+#include "tissue_light.glsl"
+#include "flesh.glsl"
+#endif
 #include "raycast_box.glsl"
 
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
+uniform float u_behind; // so much further off lies all but faces of cuts, lattice units
 uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
 
 #ifdef RAYCAST_PROBE
@@ -36,23 +42,29 @@ void main() {
     if (!hit.any)
         discard;
     vec3 shown = from + hit.t * along, n = hitNormal(shown, hit);
-    vec4 clip = u_clipFromLattice * vec4(shown, 1.0);
+    vec4 clip = u_clipFromLattice * vec4(shown + (hit.face ? 0.0 : u_behind) * along, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 #ifdef RAYCAST_PROBE
     o_normal = vec4(n, hit.t);
     o_rest = vec4(hit.rest, hit.face ? 3.0 : hit.back ? 2.0 : 1.0);
 #else
-    vec3 v = -along, albedo = hit.face ? u_flesh : hit.back ? u_inner : u_skin;
+    vec3 v = -along;
     if (dot(n, v) < 0.02)
         n = normalize(n + (0.02 - dot(n, v)) * v);
-    float ndl = dot(n, u_toKey), ndv = max(dot(n, v), 0.02);
-    const vec3 kWrap = vec3(0.40, 0.13, 0.08);
-    vec3 key = max((ndl + kWrap) / ((1.0 + kWrap) * (1.0 + kWrap)), 0.0);
-    float back = max((dot(n, u_toBack) + 0.25) / 1.56, 0.0);
-    vec3 colour = albedo * (kKeyColour * key * (1.75 * u_key) + surround(n) * 0.75 + kBackColour * (0.35 * u_key * back));
-    vec3 h = normalize(v + u_toKey);
-    colour += kKeyColour * (0.09 * max(ndl, 0.0) * u_key * ggx(0.13, max(dot(n, h), 0.0), max(dot(u_toKey, h), 0.0)));
-    colour += studio(reflect(-v, n), 0.1) * fresnel(0.028, ndv);
-    o_colour = vec4(toneMap(colour), 1.0);
+    Tissue tissue;
+    tissue.position = shown;
+    tissue.normal = tissue.film = n;
+    tissue.inside = false;
+    tissue.blood = 0.0;
+    tissue.open = hit.back ? 0.7 : 1.0;
+    tissue.albedo = hit.back ? u_inner : u_skin;
+    tissue.roughness = 0.36;
+    if (hit.face) {
+        Flesh flesh = fleshAt(hit.rest, u_flesh);
+        tissue.albedo = flesh.albedo;
+        tissue.roughness = flesh.roughness;
+        tissue.open = 0.85;
+    }
+    o_colour = vec4(tissueLight(tissue, v), 1.0);
 #endif
 }

@@ -19,9 +19,13 @@
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
 #define SRS_MOST_STEP 2.0     // and never longer
 
+#define SRS_LIP_STEP 0.1      // of the step: at the lip of a blade's cut they are no shorter
+
 // The lattice's displacement texture (render/lattice_warp.h).
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
+#define SRS_WARP_ACROSS 1.1         // spacings: so far beyond a cut its side goes on
+#define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
 #define SRS_WARP_STEPS 8            // Newton's
 #define SRS_WARP_GROUP 32
 

@@ -15,6 +15,7 @@ uniform float u_boxSize;   // longer than any way through the box: the distance 
 struct Place {
     float distance, body, mask; // signed distance of the surface; the same of the body that is drawn
     vec3 rest;
+    float cut; // to the nearest blade's cut, object space
 };
 
 Place placeAt(vec3 shown) {
@@ -25,7 +26,7 @@ Place placeAt(vec3 shown) {
 #endif
     if (!warped.covered)
         f = body = u_boxSize;
-    return Place(f, body, warped.mask, warped.rest);
+    return Place(f, body, warped.mask, warped.rest, warped.cut);
 }
 
 struct Hit {
@@ -36,13 +37,16 @@ struct Hit {
 };
 
 /// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005).
-float stepFrom(vec3 shown, vec3 along, float body) {
+/// The lip of a blade's cut is a wedge between surface and cut: short steps where both are near, or in the cut and one is.
+float stepFrom(vec3 shown, vec3 along, Place place) {
+    float body = place.body, lip = place.mask < 0.5 ? place.cut : max(abs(body), place.cut);
+    float most = max(0.25 * lip, SRS_LIP_STEP * u_step);
 #if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
-    return u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
+    return min(most, u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP));
 #elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
-    return abs(body) < u_threshold ? 0.25 * u_step : u_step;
+    return min(most, abs(body) < u_threshold ? 0.25 * u_step : u_step);
 #else
-    return u_step;
+    return min(most, u_step);
 #endif
 }
 
@@ -50,12 +54,22 @@ bool matter(Place place) {
     return place.body < 0.0 && place.mask >= 0.5;
 }
 
+/// Is tissue entered far from its surface, although the body's field was not negative before? In an opened cut the field is that
+/// of one side or the other, as it would go on there.
+bool entersInside(Place place) {
+#ifdef RAYCAST_CUT
+    return place.body < -0.05 * u_step;
+#else
+    return false;
+#endif
+}
+
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
     float t = start;
     Place before = placeAt(from + t * along);
     while (t < end && hit.samples < SRS_MOST_SAMPLES) {
-        float next = min(t + stepFrom(from + t * along, along, before.body), end);
+        float next = min(t + stepFrom(from + t * along, along, before), end);
         Place now = placeAt(from + next * along);
         ++hit.samples;
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
@@ -83,11 +97,11 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
                 }
             }
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-            bool meant = in_.mask >= 0.5;
+            bool meant = in_.mask >= 0.5 && !entersInside(in_);
             hit.back = now.body >= 0.0;
 #else
             bool meant = true;
-            hit.face = out_.body < 0.0;
+            hit.face = out_.body < 0.0 || entersInside(in_);
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
             hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
 #endif
@@ -108,8 +122,9 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
 /// Unit, outward of what was hit: eq. 5; of a cut's face against the mask's gradient (eq. 6 reads |f| < epsilon: here the
 /// search knows which of the two it met).
 vec3 hitNormal(vec3 shown, Hit hit) {
-    if (hit.face)
-        return normalize(-maskGradient(shown));
+    vec3 mask = hit.face ? maskGradient(shown) : vec3(0.0);
+    if (mask != vec3(0.0)) // there is none where tissue ends that nothing cut
+        return normalize(-mask);
     vec3 normal = normalize(transpose(warpJacobian(shown)) * fieldGradient(hit.rest));
     return hit.back ? -normal : normal;
 }

@@ -57,24 +57,28 @@ struct Warped {
     vec3 rest;    // p
     float mask;   // A
     bool covered; // there can be tissue
+    float cut;    // to the nearest blade's cut, object space
 };
 
 /// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
 Warped warp(vec3 shown) {
     bool tissue = true;
+    float kept = 1.0, cut = 1e9; // by the blades; the map's own mask comes beside
 #ifdef RAYCAST_LATTICE
-    vec4 moved = readLattice(shown);
-    tissue = covered(moved);
-    shown += moved.xyz;
+    Moved moved = moveBack(shown);
+    tissue = moved.covered;
+    kept = moved.kept;
+    cut = moved.cut;
+    shown = moved.rest;
 #endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), d.w, tissue);
+        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue, cut);
     }
 #endif
-    return Warped(shown, 1.0, tissue);
+    return Warped(shown, kept, tissue, cut);
 }
 
 #ifdef RAYCAST_WARP
@@ -95,8 +99,9 @@ void displacementGradient(vec3 q, out mat3 gradient, out vec3 mask) {
 mat3 warpJacobian(vec3 shown) {
     mat3 first = mat3(1.0);
 #ifdef RAYCAST_LATTICE
-    first = latticeJacobian(shown);
-    shown += readLattice(shown).xyz;
+    Moved moved = moveBack(shown);
+    first = latticeJacobian(shown, moved.side);
+    shown = moved.rest;
 #endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
@@ -110,23 +115,30 @@ mat3 warpJacobian(vec3 shown) {
     return first;
 }
 
-/// Of the mask in object space, by M's inverse transpose.
+/// Of the mask in object space: of a map's own by M's inverse transpose, of the blades' through the lattice.
 vec3 maskGradient(vec3 shown) {
-#ifdef RAYCAST_WARP
     mat3 first = mat3(1.0);
+    float kept = 1.0;
+    vec3 blade = vec3(0.0);
 #ifdef RAYCAST_LATTICE
-    first = latticeJacobian(shown);
-    shown += readLattice(shown).xyz;
+    Moved moved = moveBack(shown);
+    first = latticeJacobian(shown, moved.side);
+    shown = moved.rest;
+#ifdef RAYCAST_CUT
+    kept = moved.kept;
+    blade = bladeGradient(shown, moved.side);
 #endif
+#endif
+#ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
-    if (inBox(q)) {
+    if (inBox(q) && readDisplacement(q).w < kept) { // this mask ends nearer
         mat3 gradient;
         vec3 mask;
         displacementGradient(q, gradient, mask);
         return transpose(first) * (transpose(inverse(mappingJacobian(q))) * mask);
     }
 #endif
-    return vec3(0.0);
+    return transpose(first) * blade;
 }
 
 /// Signed distance at rest, object space; beyond the volume at least the way to it.

@@ -134,3 +134,7 @@
 #define SRS_MASK_GROUP 64  // invocations that paint a cell
 #define SRS_MASK_FAR 1.0e9 // a node that no blade came near
 #define SRS_MASK_KEPT 0xffffffffu
+
+// Nodes as one side of the cuts carries them (render/side_nodes.h): alpha, spacings.
+#define SRS_SIDE_FAR 4.0    // no cut is near
+#define SRS_SIDE_NONE -100.0 // the side has no place for the node

@@ -24,7 +24,7 @@ uniform float u_blendStep;   // lattice units that it may move the vertex a fram
 #endif
 
 #ifdef SURFACE_REST // render/surface_vertices.h: RestVertex
-layout(location = 7) in vec4 a_rest;   // position at rest in its box; w: the side of a cut, in 1/65535
+#include "surface_rest.glsl"
 layout(location = 8) in uvec2 a_frame; // rest normal in lattice axes; a tangent to it, in the basis; packed
 uniform vec3 u_restFrom, u_restExtent; // of the box, lattice units
 
@@ -81,7 +81,7 @@ void main() {
     v_colour.rgb *= v_colour.rgb;
 #ifdef SURFACE_REST
     v_rest = u_restFrom + a_rest.xyz * u_restExtent;
-    v_side = round(a_rest.w * 65535.0) - 1.0;
+    v_side = vertexSide();
     vec3 frame = unpackNormal(a_frame.y), restN = unpackNormal(a_frame.x), restT = anyTangent(restN);
 #ifdef SURFACE_STATIC
     vec3 t = frame;

@@ -115,7 +115,7 @@ inline constexpr Mapping kSurfaceMappings[] = {Mapping::triangle,  Mapping::curv
                                                Mapping::trilinear, Mapping::nodeFrames};
 enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 /// What an organ is drawn as: its surface, or its distance field, ray-cast (docs/methods/raycast.md).
-enum class Show { surface, implicit };
+enum class Show { surface, implicit, both };
 /// What is in it, where it is ray-cast.
 enum class Interior { hollow, solid, shell };
 struct Look {

@@ -366,9 +366,9 @@ std::vector<SceneKey> otherKeys() {
              "what the surface is coloured by; material: by the material of the cell at each vertex; plain: "
              "its own "
              "colour, evenly lit by the key light alone"),
-        word("look", "show", {"surface", "implicit"}, "\"surface\"",
-             "what is drawn of organs: the surface, or its distance field, ray-cast "
-             "(docs/methods/raycast.md)"),
+        word("look", "show", {"surface", "implicit", "both"}, "\"surface\"",
+             "what is drawn of organs: the surface; its distance field, ray-cast; or both: the surface, as "
+             "`trilinear` maps it, and what is ray-cast closes its cuts (docs/methods/raycast.md)"),
         word("look", "interior", {"hollow", "solid", "shell"}, "\"solid\"",
              "implicit: what is seen where it is cut open"),
         quantity("look", "shell", Dim::length, kPositive, "\"8 mm\"", "implicit: thickness of a shell"),

@@ -31,6 +31,7 @@ const std::map<std::string, Words>& table() {
             {"--layout", {"auto", "grid", "rows"}},
             {"--length-unit", {"mm", "cm", "m", "um", "in"}},
             {"--mapping", sim::findSceneKey("look", "mapping")->words},
+            {"--show", sim::findSceneKey("look", "show")->words},
             {"--solver", solvers},
             {"serosa phantom name", phantoms},
             {"serosa verify groups", groups},

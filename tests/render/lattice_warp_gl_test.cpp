@@ -56,7 +56,7 @@ TEST_F(GlLatticeWarp, TakesWhatCellsCarryBackToRest) {
         for (const double strength : {0.0, 1.0}) {
             const sim::LatticeState state = bent(lattice, strength);
             textures->upload(state);
-            warp->update(*textures);
+            ASSERT_TRUE(warp->update(*textures).ok());
             const LatticeWarp::Read read = warp->read();
             std::mt19937 engine(3);
             const auto number = [&] { return double(engine()) / 4294967296.0; };
@@ -88,7 +88,7 @@ TEST_F(GlLatticeWarp, KnowsWhereThereIsNoTissue) {
     ASSERT_TRUE(textures.ok());
     auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
     ASSERT_TRUE(warp.ok());
-    warp->update(*textures);
+    ASSERT_TRUE(warp->update(*textures).ok());
     const LatticeWarp::Read read = warp->read();
     int inside = 0, outside = 0;
     for (int z = 0; z < warp->size().z; ++z)
@@ -134,7 +134,7 @@ TEST_F(GlLatticeWarp, ABallThatIsStretchedIsAnEllipsoid) {
     textures->upload(state);
     auto warp = LatticeWarp::create(*lattice, textures->layout(), 2);
     ASSERT_TRUE(warp.ok());
-    warp->update(*textures);
+    ASSERT_TRUE(warp->update(*textures).ok());
     const auto volume =
         DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 48, 3), 0);
     ASSERT_TRUE(volume.ok());
