@@ -119,6 +119,8 @@ std::vector<gpu::ShaderDefine> SurfacePasses::defines(SurfaceStage stage) const 
         all.push_back({"SURFACE_REST", ""});
     if (mask_)
         all.push_back({"SURFACE_CUT", ""});
+    if (box_)
+        all.push_back({"SURFACE_BOX", ""});
     if (textures_)
         all.push_back({"SURFACE_TEXTURED", ""});
     if (textures_ && !drawn_.textures.empty())
@@ -311,6 +313,8 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
         mask_->bind(program);
         program.set("u_blood", frame.blood ? 1 : 0);
     }
+    if (box_ && stage != SurfaceStage::nodes)
+        box_->set(program, origin_, unit_);
     if (textures_ && stage != SurfaceStage::nodes) {
         program.texture("t_albedo", textures_->albedo).texture("t_relief", textures_->relief);
         program.set("u_albedoScale", textures_->albedoScale).set("u_tiles", textures_->tiles);

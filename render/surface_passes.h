@@ -8,6 +8,7 @@
 #include "render/cut_surface.h"
 #include "render/frame.h"
 #include "render/frame_pass.h"
+#include "render/stage_box.h"
 #include "render/surface_binding.h"
 #include "render/surface_clusters.h"
 #include "render/surface_seams.h"
@@ -113,6 +114,12 @@ public:
 
     /// Makes the mask that strokes paint, and programs that ask it. Errors: of CutMask::create, of shaders.
     Status openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout);
+    /// Leaves out from now on what rests in this box beyond its seam (without one: all that does). The
+    /// arguments are those of create. Errors: of shaders.
+    Status openBox(const StageBox& box, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                   const std::vector<SurfaceBinding>& bindings);
+    /// Where it has moved to.
+    void setBox(const StageBox& box) { box_ = box; }
     /// Null before openMask.
     CutMask* mask() { return mask_ ? &*mask_ : nullptr; }
     const CutMask* mask() const { return mask_ ? &*mask_ : nullptr; }
@@ -158,7 +165,7 @@ private:
     void setNodes(gpu::Program& program, const sim::StateTextures& state, SurfaceStage stage);
     void setVertexInputs(gpu::Program& program, const sim::StateTextures& state, const Frame& frame,
                          SurfaceStage stage);
-    bool usesRest() const { return mask_ || textures_; }
+    bool usesRest() const { return mask_ || textures_ || box_; }
     std::size_t vertexCount() const { return newIndex_.size() + copies_.size(); }
     /// Items of mesh vertices, and after them of copies, as the buffers have them.
     template <class T>
@@ -214,6 +221,9 @@ private:
     gpu::Texture2D noShadow_, noOcclusion_;                                   // one texel each
     RestBox restBox_;
     std::optional<CutMask> mask_;
+    std::optional<StageBox> box_;
+    glm::dvec3 origin_{0}; // m: of lattice units,
+    double unit_ = 1;      // and their size
 };
 
 } // namespace serosa::render

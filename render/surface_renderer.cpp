@@ -279,12 +279,14 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
                                   kCoreColour);
     glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
     const bool implicit = view.look.show == sim::Show::implicit;
-    for (std::size_t i = 0; i < view.casters.size() && implicit; ++i) {
+    const sim::Stage stage = implicit ? view.look.stage : sim::Stage::whole;
+    const bool mesh = !implicit || stage == sim::Stage::mesh || stage == sim::Stage::composite;
+    for (std::size_t i = 0; i < in.organs.size() && view.look.surface && mesh; ++i)
+        in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
+    for (std::size_t i = 0; i < view.casters.size() && implicit && stage != sim::Stage::mesh; ++i) {
         const Status drawn = view.casters[i]->draw(frames[i], raycastLook(view.look));
         SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5");
     }
-    for (std::size_t i = 0; i < in.organs.size() && view.look.surface && !implicit; ++i)
-        in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     std::vector<const sim::Lattice*> placements;
     for (const DrawnOrgan& organ : in.organs)
@@ -305,6 +307,16 @@ Status SurfaceRenderer::prepareSkipping(std::size_t organ, const sim::Lattice& l
                                         const sim::TriangleMesh& metres, const SurfaceBinding& binding,
                                         const sim::StateTextures& state) {
     return impl_->organs.at(organ).surface.prepareSkipping(lattice, metres, binding, state.layout());
+}
+
+Status SurfaceRenderer::openBox(std::size_t organ, const StageBox& box, const sim::Lattice& lattice,
+                                const sim::TriangleMesh& metres, const SurfaceBinding& binding) {
+    return impl_->organs.at(organ).surface.openBox(box, lattice, metres,
+                                                   withBothBases(binding, lattice, metres));
+}
+
+void SurfaceRenderer::setBox(std::size_t organ, const StageBox& box) {
+    impl_->organs.at(organ).surface.setBox(box);
 }
 
 Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& lattice,

@@ -8,6 +8,9 @@
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
+#ifdef RAYCAST_STAGE
+uniform float u_seamLift; // object space: the field and the surface differ by less
+#endif
 uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
 
 #ifdef RAYCAST_PROBE
@@ -36,7 +39,13 @@ void main() {
     if (!hit.any)
         discard;
     vec3 shown = from + hit.t * along, n = hitNormal(shown, hit);
+#ifdef RAYCAST_STAGE
+    // In the seam it lies over the surface, which it covers the more the further in it is.
+    float seam = smoothstep(0.0, 1.0, stageAt(shown));
+    vec4 clip = u_clipFromLattice * vec4(shown - (seam < 1.0 ? u_seamLift : 0.0) * along, 1.0);
+#else
     vec4 clip = u_clipFromLattice * vec4(shown, 1.0);
+#endif
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 #ifdef RAYCAST_PROBE
     o_normal = vec4(n, hit.t);
@@ -54,5 +63,8 @@ void main() {
     colour += kKeyColour * (0.09 * max(ndl, 0.0) * u_key * ggx(0.13, max(dot(n, h), 0.0), max(dot(u_toKey, h), 0.0)));
     colour += studio(reflect(-v, n), 0.1) * fresnel(0.028, ndv);
     o_colour = vec4(toneMap(colour), 1.0);
+#ifdef RAYCAST_STAGE
+    o_colour.a = seam;
+#endif
 #endif
 }
