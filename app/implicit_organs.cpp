@@ -1,6 +1,8 @@
 // See app/implicit_organs.h.
 #include "app/implicit_organs.h"
 
+#include "render/surface_passes.h"
+
 namespace serosa::app {
 
 namespace {
@@ -24,7 +26,8 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     const render::VolumeGrid grid =
         render::VolumeGrid::around(metres.lowest(), metres.highest(), scene.look.fieldSamples, kMargin);
     const double band = scene.look.interior == sim::Interior::shell ? scene.look.shell : 0;
-    SEROSA_ASSIGN(render::DistanceVolume field, render::DistanceVolume::create(metres, grid, band));
+    SEROSA_ASSIGN(render::DistanceVolume field,
+                  render::DistanceVolume::create(metres, grid, band, render::vertexColours(metres, nullptr)));
     organ.field = std::make_unique<render::DistanceVolume>(std::move(field));
     SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, *organ.field));
     organ.caster = std::make_unique<render::Raycaster>(std::move(caster));

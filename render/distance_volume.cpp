@@ -72,7 +72,7 @@ VolumeGrid VolumeGrid::around(const glm::dvec3& lowest, const glm::dvec3& highes
 }
 
 Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, const VolumeGrid& grid,
-                                              double band) {
+                                              double band, const std::vector<glm::u8vec4>& colours) {
     if (mesh.faces.empty())
         return Error{"a distance field of a mesh without faces"};
     if (std::max({grid.size.x, grid.size.y, grid.size.z}) > kMostVoxels)
@@ -163,6 +163,21 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
     finish.image("i_distance", volume.texture_, GL_WRITE_ONLY);
     finish.dispatch(grid.size);
     barrier();
+    if (!colours.empty()) {
+        std::vector<std::uint32_t> packed;
+        for (const glm::u8vec4& c : colours)
+            packed.push_back(std::uint32_t(c.r) | std::uint32_t(c.g) << 8 | std::uint32_t(c.b) << 16 |
+                             std::uint32_t(c.a) << 24);
+        const gpu::Buffer colourBuffer("colours of a distance field", std::span<const std::uint32_t>(packed));
+        SEROSA_ASSIGN(gpu::Program colour, program("distance_colour.comp", {}));
+        volume.colours_.emplace("colours of the nearest surface", grid.size);
+        colour.set("u_size", grid.size).buffer("b_colours", colourBuffer);
+        colour.buffer("b_vertices", vertexBuffer).buffer("b_triangles", triangleBuffer);
+        colour.image("i_nearest", least, GL_READ_ONLY).image("i_colour", *volume.colours_, GL_WRITE_ONLY);
+        colour.dispatch(grid.size);
+        barrier();
+        glFinish();
+    }
     glFinish(); // the buffers die here
     return volume;
 }

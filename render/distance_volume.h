@@ -22,6 +22,7 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace serosa::render {
@@ -40,17 +41,23 @@ public:
     /// \param mesh m, closed, wound outward. \param grid the whole mesh or a part of it.
     /// \param band m: distances are exact to here; at least two voxels are.
     /// Errors: a mesh that is open (with an edge of it), 0 faces, of the shaders.
-    static Result<DistanceVolume> create(const sim::TriangleMesh& mesh, const VolumeGrid& grid, double band);
+    /// \param colours one a vertex, RGBA8 of any meaning: near the surface the volume of them is what it has
+    /// there; empty: none is made
+    static Result<DistanceVolume> create(const sim::TriangleMesh& mesh, const VolumeGrid& grid, double band,
+                                         const std::vector<glm::u8vec4>& colours = {});
 
     const VolumeGrid& grid() const { return grid_; }
     /// R16F, voxels.
     const gpu::Texture3D& texture() const { return texture_; }
+    /// RGBA8; null where there are none.
+    const gpu::Texture3D* colours() const { return colours_ ? &*colours_ : nullptr; }
     /// As the texture holds them, m, x fastest. Waits.
     std::vector<float> read() const;
 
 private:
     VolumeGrid grid_;
     gpu::Texture3D texture_;
+    std::optional<gpu::Texture3D> colours_;
 };
 
 /// The same in double on the processor: exact everywhere (sim/triangle_tree.h), m.

@@ -9,6 +9,9 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <vector>
 
 namespace serosa::render {
@@ -32,6 +35,20 @@ struct Frame {
     void setLight(gpu::Program& program) const {
         program.set("u_toKey", toKey).set("u_toBack", toBack).set("u_key", key);
         program.set("u_ambient", ambient).set("u_eye", eye);
+    }
+    /// All that shaders/tissue_light.glsl asks for. \param noShadow, noOcclusion textures in place of none
+    void setTissueLight(gpu::Program& program, const gpu::Texture2D& noShadow,
+                        const gpu::Texture2D& noOcclusion) const {
+        setLight(program);
+        program.set("u_shadows", shadow ? 1 : 0).set("u_occlusion", occlusion ? 1 : 0);
+        program.texture("t_shadow", shadow ? *shadow : noShadow);
+        program.texture("t_occlusion", occlusion ? *occlusion : noOcclusion);
+        program.set("u_shadowFromLattice", shadowFromLattice).set("u_shadowTexel", shadowTexel);
+        std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
+        for (std::size_t i = 0; i < tools.size() && i < shades.size(); ++i)
+            tools[i] = shades[i];
+        program.set("u_tools", std::span<const glm::vec4>(tools));
+        program.set("u_toolCount", int(std::min(tools.size(), shades.size())));
     }
 };
 

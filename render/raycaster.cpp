@@ -35,6 +35,8 @@ Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceV
     made.volume_ = &volume;
     made.origin_ = lattice.toWorld(glm::dvec3(0));
     made.unit_ = lattice.spacing;
+    made.noShadow_ = gpu::Texture2D("no shadow", GL_DEPTH_COMPONENT32F, 1, 1);
+    made.noOcclusion_ = gpu::Texture2D("no occlusion", GL_R8, 1, 1);
     made.empty_ = gpu::VertexArray("deformation shader");
     made.setWarp(std::nullopt);
     return made;
@@ -97,6 +99,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_WARP", "1"});
     if (variant.staged)
         defines.push_back({"RAYCAST_STAGE", "1"});
+    if (variant.coloured)
+        defines.push_back({"RAYCAST_COLOURED", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -105,8 +109,9 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 }
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
-    SEROSA_ASSIGN(gpu::Program* const made, program({look.solid, look.search, lattice_ != nullptr,
-                                                     mapping_.has_value(), stage_.has_value(), probe}));
+    SEROSA_ASSIGN(gpu::Program* const made,
+                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(),
+                           stage_.has_value(), volume_->colours() && !probe, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -139,8 +144,12 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     if (probe) {
         program.set("u_eye", frame.eye);
     } else {
-        frame.setLight(program);
-        program.set("u_skin", look.skin).set("u_inner", look.inner).set("u_flesh", look.flesh);
+        frame.setTissueLight(program, noShadow_, noOcclusion_);
+        program.set("u_inner", look.inner).set("u_flesh", look.flesh);
+        if (volume_->colours())
+            program.texture("t_colours", *volume_->colours());
+        else
+            program.set("u_skin", look.skin);
     }
     program.use();
     glBindVertexArray(empty_.id());

@@ -78,7 +78,7 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool lattice, warped, staged, probe;
+        bool lattice, warped, staged, coloured, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -95,6 +95,7 @@ private:
     std::optional<TextureMapping> mapping_; // m
     std::optional<StageBox> stage_;
     glm::dvec3 lowest_{0}, highest_{0};
+    gpu::Texture2D noShadow_, noOcclusion_; // one texel each
     gpu::VertexArray empty_;
     std::map<Variant, gpu::Program> programs_;
 };

@@ -33,7 +33,8 @@ glm::u8vec4 vertexColour(const glm::u8vec3& srgb, float open) {
     return {rootOfLinear(srgb.r), rootOfLinear(srgb.g), rootOfLinear(srgb.b), std::lround(255 * open)};
 }
 
-/// \param bare linear colour of a mesh without colours; null: flesh
+} // namespace
+
 std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm::vec3* bare) {
     const std::vector<float> open = bakeOcclusion(mesh);
     std::vector<glm::u8vec4> colours;
@@ -44,6 +45,8 @@ std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm:
     }
     return colours;
 }
+
+namespace {
 
 constexpr SurfaceColour kColours[] = {SurfaceColour::tissue, SurfaceColour::dynamicNormal,
                                       SurfaceColour::plain};
@@ -322,16 +325,7 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
     }
     if (stage == SurfaceStage::nodes)
         program.set("u_colour", glm::vec4(glm::sqrt(bare), 1));
-    frame.setLight(program);
-    program.set("u_shadows", frame.shadow ? 1 : 0).set("u_occlusion", frame.occlusion ? 1 : 0);
-    program.texture("t_shadow", frame.shadow ? *frame.shadow : noShadow_);
-    program.texture("t_occlusion", frame.occlusion ? *frame.occlusion : noOcclusion_);
-    program.set("u_shadowFromLattice", frame.shadowFromLattice).set("u_shadowTexel", frame.shadowTexel);
-    std::array<glm::vec4, SRS_MAX_TOOLS> tools{};
-    for (std::size_t i = 0; i < tools.size() && i < frame.shades.size(); ++i)
-        tools[i] = frame.shades[i];
-    program.set("u_tools", std::span<const glm::vec4>(tools));
-    program.set("u_toolCount", int(std::min(tools.size(), frame.shades.size())));
+    frame.setTissueLight(program, noShadow_, noOcclusion_);
     return program;
 }
 

@@ -1,8 +1,12 @@
 #version 450 core
 // The deformation shader (CS07): a ray a pixel, warped back to rest sample by sample, until it meets the distance field there.
 // RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; kind and rest position.
+#include "shared_constants.h"
 #include "raycast_search.glsl"
 #include "lighting.glsl"
+#ifndef RAYCAST_PROBE
+#include "tissue_light.glsl"
+#endif
 #include "raycast_box.glsl"
 
 in vec3 v_position; // object space, lattice units: on the far side of the box
@@ -11,13 +15,33 @@ uniform mat4 u_clipFromLattice;
 #ifdef RAYCAST_STAGE
 uniform float u_seamLift; // object space: the field and the surface differ by less
 #endif
-uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
+uniform vec3 u_inner, u_flesh; // linear: inner side of a hollow or thick one, cut faces
+#ifdef RAYCAST_COLOURED
+uniform sampler3D t_colours; // square root of the linear colour outside; light that arrives (render/distance_volume.h)
+#else
+uniform vec3 u_skin; // linear: outside
+#endif
 
 #ifdef RAYCAST_PROBE
 layout(location = 0) out vec4 o_normal; // xyz, t
 layout(location = 1) out vec4 o_rest;   // xyz; w 1 surface, 2 its inner side, 3 cut face
 #else
 out vec4 o_colour;
+#endif
+
+#ifndef RAYCAST_PROBE
+const float kInnerOpen = 0.8; // of the surround, in a cut
+
+/// Linear colour outside at rest, and light of the surround that arrives.
+vec4 skinAt(vec3 rest) {
+#ifdef RAYCAST_COLOURED
+    vec3 size = vec3(textureSize(t_colours, 0));
+    vec4 read = texture(t_colours, ((rest - u_fieldLowest) / u_fieldStep + 0.5) / size);
+    return vec4(read.rgb * read.rgb, read.a);
+#else
+    return vec4(u_skin, 1.0);
+#endif
+}
 #endif
 
 /// Where the ray is in the box: entry, exit.
@@ -51,18 +75,20 @@ void main() {
     o_normal = vec4(n, hit.t);
     o_rest = vec4(hit.rest, hit.face ? 3.0 : hit.back ? 2.0 : 1.0);
 #else
-    vec3 v = -along, albedo = hit.face ? u_flesh : hit.back ? u_inner : u_skin;
+    vec3 v = -along;
     if (dot(n, v) < 0.02)
         n = normalize(n + (0.02 - dot(n, v)) * v);
-    float ndl = dot(n, u_toKey), ndv = max(dot(n, v), 0.02);
-    const vec3 kWrap = vec3(0.40, 0.13, 0.08);
-    vec3 key = max((ndl + kWrap) / ((1.0 + kWrap) * (1.0 + kWrap)), 0.0);
-    float back = max((dot(n, u_toBack) + 0.25) / 1.56, 0.0);
-    vec3 colour = albedo * (kKeyColour * key * (1.75 * u_key) + surround(n) * 0.75 + kBackColour * (0.35 * u_key * back));
-    vec3 h = normalize(v + u_toKey);
-    colour += kKeyColour * (0.09 * max(ndl, 0.0) * u_key * ggx(0.13, max(dot(n, h), 0.0), max(dot(u_toKey, h), 0.0)));
-    colour += studio(reflect(-v, n), 0.1) * fresnel(0.028, ndv);
-    o_colour = vec4(toneMap(colour), 1.0);
+    vec4 skin = skinAt(hit.rest);
+    Tissue tissue;
+    tissue.position = shown;
+    tissue.albedo = hit.face ? u_flesh : hit.back ? u_inner : skin.rgb;
+    tissue.open = hit.face || hit.back ? kInnerOpen : skin.a;
+    tissue.inside = hit.back;
+    tissue.normal = tissue.inside ? normalize(n + 0.8 * v) : n;
+    tissue.film = n;
+    tissue.roughness = 0.36;
+    tissue.blood = 0.0;
+    o_colour = vec4(tissueLight(tissue, v), 1.0);
 #ifdef RAYCAST_STAGE
     o_colour.a = seam;
 #endif
