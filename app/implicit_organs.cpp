@@ -2,6 +2,7 @@
 #include "app/implicit_organs.h"
 
 #include "base/check.h"
+#include "render/surface_passes.h"
 
 namespace serosa::app {
 
@@ -9,52 +10,25 @@ namespace {
 
 constexpr int kMargin = 3;        // voxels around the organ
 constexpr double kWarpVoxels = 2; // a spacing, of the lattice's displacement
-
-render::DeformationMap mapOf(const sim::Deformation& deformation) {
-    render::DeformationMap map;
-    map.kind = deformation.kind;
-    map.half = 0.5 * deformation.size;
-    map.amount = deformation.amount;
-    map.radius = deformation.radius;
-    map.extent = deformation.extent;
-    map.depth = deformation.depth;
-    map.width = deformation.width;
-    map.profile = deformation.narrow ? render::PullProfile::narrow : render::PullProfile::gaussian;
-    return map;
-}
-
-render::TextureMapping mappingOf(const sim::Deformation& deformation) {
-    render::TextureMapping mapping;
-    const glm::dvec3 across = glm::cross(deformation.along, deformation.up);
-    mapping.objectFromLocal = {glm::dvec4(deformation.along, 0), glm::dvec4(deformation.up, 0),
-                               glm::dvec4(across, 0), glm::dvec4(deformation.at, 1)};
-    mapping.cylinderRadius = deformation.wound;
-    return mapping;
-}
+constexpr double kSeam = 4;       // voxels of the field, between mesh and box
 
 } // namespace
 
-Result<render::DeformationTexture> ImplicitOrgans::deformationTexture(const sim::Scene& scene) {
-    const sim::Deformation& deformation = *scene.deformation;
-    Result<render::DeformationTexture> made =
-        render::DeformationTexture::bake(mapOf(deformation), deformation.texels, render::TexelFormat::half);
-    if (!made.ok())
-        return Error{scene.file.string() + ":" + std::to_string(deformation.line) +
-                     ": deformation: " + made.error().message};
-    return made;
-}
-
 Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& metres,
                            const sim::Lattice& lattice, const sim::TextureLayout& layout, bool moves) {
-    if (scene.deformation && !deformation_) {
-        SEROSA_ASSIGN(render::DeformationTexture texture, deformationTexture(scene));
-        deformation_ = std::make_unique<render::DeformationTexture>(std::move(texture));
+    if (!scene.deformations.empty() && !deformation_) {
+        SEROSA_ASSIGN(SceneDeformation made, SceneDeformation::create(scene));
+        deformation_ = std::make_unique<SceneDeformation>(std::move(made));
     }
+    if (deformation_)
+        SEROSA_TRY(deformation_->check(metres));
+    stage_ = scene.look.stage;
     Organ organ;
     const render::VolumeGrid grid =
         render::VolumeGrid::around(metres.lowest(), metres.highest(), scene.look.fieldSamples, kMargin);
     const double band = scene.look.interior == sim::Interior::shell ? scene.look.shell : 0;
-    SEROSA_ASSIGN(render::DistanceVolume field, render::DistanceVolume::create(metres, grid, band));
+    SEROSA_ASSIGN(render::DistanceVolume field,
+                  render::DistanceVolume::create(metres, grid, band, render::vertexColours(metres, nullptr)));
     organ.field = std::make_unique<render::DistanceVolume>(std::move(field));
     SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, *organ.field));
     organ.caster = std::make_unique<render::Raycaster>(std::move(caster));
@@ -63,9 +37,44 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
         organ.lattice = std::make_unique<render::LatticeWarp>(std::move(warp));
         organ.caster->setLattice(organ.lattice.get());
     }
-    if (deformation_)
-        organ.caster->setWarp(render::Warp{deformation_.get(), mappingOf(*scene.deformation)});
     organs_.push_back(std::move(organ));
+    return {};
+}
+
+Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector<OpenedSurface>& surfaces) {
+    if (!deformation_)
+        return {};
+    SEROSA_TRY(deformation_->checkMet());
+    SEROSA_TRY(place(0));
+    for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
+        SEROSA_TRY(renderer.openBox(i, surfaceBox(i), *surfaces[i].lattice, *surfaces[i].metres,
+                                    *surfaces[i].binding));
+    return {};
+}
+
+render::StageBox ImplicitOrgans::surfaceBox(std::size_t organ) const {
+    return deformation_->stageBox(
+        *warp_, stage_ == sim::Stage::composite ? kSeam * organs_[organ].field->grid().step : 0);
+}
+
+Status ImplicitOrgans::place(double time) {
+    if (!deformation_ || (warp_ && !deformation_->moves()))
+        return {};
+    SEROSA_ASSIGN(warp_, deformation_->at(time));
+    for (std::size_t i = 0; i < organs_.size(); ++i) {
+        organs_[i].caster->setWarp(warp_);
+        if (stage_ != sim::Stage::whole)
+            organs_[i].caster->setStage(surfaceBox(i));
+    }
+    return {};
+}
+
+Status ImplicitOrgans::moveTo(double time, render::SurfaceRenderer& renderer) {
+    if (!deformation_ || !deformation_->moves())
+        return {};
+    SEROSA_TRY(place(time));
+    for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
+        renderer.setBox(i, surfaceBox(i));
     return {};
 }
 

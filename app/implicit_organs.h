@@ -2,6 +2,7 @@
 // Organs of a run that are drawn as distance fields, ray-cast through their lattices and a scene's
 // deformation (look.show = "implicit"; docs/methods/raycast.md).
 
+#include "app/scene_deformation.h"
 #include "base/result.h"
 #include "render/raycaster.h"
 #include "render/surface_renderer.h"
@@ -10,19 +11,33 @@
 #include "sim/triangle_mesh.h"
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace serosa::app {
 
 class ImplicitOrgans {
 public:
-    /// The scene's deformation as a texture. Errors, with the scene's line: a map that folds or does not fit.
-    static Result<render::DeformationTexture> deformationTexture(const sim::Scene& scene);
-
     /// Adds an organ: its distance field, its lattice's displacement. Errors: an open surface, of the
     /// shaders. \param moves its lattice is asked where tissue is
     Status add(const sim::Scene& scene, const sim::TriangleMesh& metres, const sim::Lattice& lattice,
                const sim::TextureLayout& layout, bool moves);
+    /// What the surface pass leaves to the box of a scene that is drawn in two stages (look.stage); after all
+    /// were added. Errors: a box that meets no organ, of the shaders.
+    struct OpenedSurface {
+        const sim::Lattice* lattice;
+        const sim::TriangleMesh* metres;
+        const render::SurfaceBinding* binding;
+    };
+    Status open(render::SurfaceRenderer& renderer, const std::vector<OpenedSurface>& surfaces);
+    /// Moves the deformations to where they are at a time, in what is drawn from now on. Errors: of
+    /// deformations that together do more than a texture holds.
+    Status moveTo(double time, render::SurfaceRenderer& renderer);
+    /// What a user should know of what was made.
+    std::vector<std::string> notes() const {
+        return deformation_ ? deformation_->notes() : std::vector<std::string>();
+    }
     bool empty() const { return organs_.empty(); }
     /// Casters of the organs as their states have them, in the order in which they were added. \param drawn
     /// has their cut masks
@@ -35,7 +50,12 @@ private:
         std::unique_ptr<render::LatticeWarp> lattice;
         std::unique_ptr<render::Raycaster> caster;
     };
-    std::unique_ptr<render::DeformationTexture> deformation_;
+    Status place(double time);
+    render::StageBox surfaceBox(std::size_t organ) const;
+
+    std::unique_ptr<SceneDeformation> deformation_;
+    std::optional<render::Warp> warp_; // points into it
+    sim::Stage stage_ = sim::Stage::whole;
     std::vector<Organ> organs_;
 };
 

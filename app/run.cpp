@@ -137,7 +137,7 @@ public:
     }
 
     /// The first drawing compiles shaders and fills caches: a part of the set-up, not of a picture's time.
-    void warmUp() { drawScene(0); }
+    Status warmUp() { return drawScene(0); }
 
     Status contactSheet() {
         if (tiles_.empty())
@@ -161,7 +161,7 @@ public:
                                             2 * std::numbers::pi * share);
             parts_.scene.light.direction =
                 glm::rotate(light, 2 * std::numbers::pi * share, glm::dvec3(0, 1, 0));
-            drawScene(player_.frame()); // the organs turn, not the room
+            SEROSA_TRY(drawScene(player_.frame())); // the organs turn, not the room
             tiles.push_back(render::shrink(parts_.renderer->readImage(), kTileWidth));
             captions.push_back(std::to_string(std::lround(360 * share)) + " deg");
         }
@@ -264,14 +264,16 @@ private:
         sampleCoupling(parts_, player_, time, record_);
     }
 
-    void drawScene(int frame) {
+    Status drawScene(int frame) {
         const double time = frame * frameTime_;
         render::View view{camera_, parts_.scene.light, parts_.scene.look,
                           render::drawnShapes(parts_.scene, time, parts_.lowest(), parts_.highest()),
                           drawnThreads(parts_, player_.threads(), time)};
+        SEROSA_TRY(parts_.implicit.moveTo(time, *parts_.renderer));
         view.casters = parts_.implicit.casters(parts_.textures(), *parts_.renderer);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
+        return {};
     }
 
     /// Strokes, springs and pieces of an organ that was cut.
@@ -297,7 +299,7 @@ private:
         const bool tile = sheetFrames_.contains(frame);
         {
             Stopwatch watch(record_.times.draw);
-            drawScene(frame);
+            SEROSA_TRY(drawScene(frame));
         }
         Stopwatch watch(record_.times.files);
         const render::Image image = parts_.renderer->readImage();
@@ -411,6 +413,8 @@ std::vector<std::string> describeSetup(const RunParts& parts, std::ostream& out)
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         describeOrgan(parts.scene.organs[i], *parts.organs[i], parts.levels[i], out, notes);
     notes.insert(notes.end(), parts.toolNotes.begin(), parts.toolNotes.end());
+    for (std::string& note : parts.implicit.notes())
+        notes.push_back(std::move(note));
     for (std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
         notes.push_back(std::move(note));
     for (std::string& note : couplingNotes(parts.scene, parts.placedOrgans()))
@@ -450,7 +454,7 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
         run.record().from = {options.from.filename().string(), int(start->frame),
                              start->organs.front().solver};
     run.record().notes = std::move(notes);
-    run.warmUp();
+    SEROSA_TRY(run.warmUp());
     setupWatch.reset();
     const InterruptGuard interrupt;
     SEROSA_TRY(run.frames(interrupt));

@@ -224,6 +224,10 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
                                                    parts.organs[i]->textures().layout()));
     for (std::size_t i = 0; i < parts.organs.size() && parts.scene.look.show != sim::Show::surface; ++i)
         SEROSA_TRY(prepareImplicit(parts, i));
+    std::vector<ImplicitOrgans::OpenedSurface> surfaces;
+    for (const auto& organ : parts.organs)
+        surfaces.push_back({&organ->lattice, &organ->surface.metres, &organ->binding});
+    SEROSA_TRY(parts.implicit.open(*parts.renderer, surfaces));
     SEROSA_TRY(makeGroup(parts));
     parts.levels.resize(parts.organs.size());
     for (std::size_t i = 0; i < parts.organs.size(); ++i)

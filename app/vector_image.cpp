@@ -6,14 +6,17 @@
 #include "base/atomic_file.h"
 
 #include <itkImage.h>
+#include <itkImageFileReader.h>
 #include <itkImageFileWriter.h>
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkVector.h>
+#include <itkVectorImage.h>
 #include <itkVersion.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -47,9 +50,18 @@ std::string firstLine(const std::string& text) {
     return text.substr(from, text.find('\n', from) - from);
 }
 
+struct Placed {
+    glm::ivec3 size;
+    glm::dvec3 spacing, origin; // mm
+};
+Placed placed(const sim::DisplacementGrid& grid) {
+    return {grid.size, glm::dvec3(grid.spacing), grid.origin};
+}
+
+/// \param values components of the pixels
 template <class Pixel, class Value>
-Status writeImage(const sim::DisplacementGrid& grid, const std::vector<Value>& values, const fs::path& file) {
-    static_assert(sizeof(Pixel) == sizeof(Value), "pixels are copied as they are");
+Status writeImage(const Placed& grid, const std::vector<Value>& values, const fs::path& file) {
+    static_assert(sizeof(Pixel) % sizeof(Value) == 0, "pixels are copied as they are");
     const std::string name = file.string();
     const itk::ImageIOBase::Pointer io = imageIo(file.extension().string());
     if (!io)
@@ -61,14 +73,15 @@ Status writeImage(const sim::DisplacementGrid& grid, const std::vector<Value>& v
     typename Image::PointType origin;
     for (unsigned axis = 0; axis < 3; ++axis) {
         size[axis] = itk::SizeValueType(grid.size[int(axis)]);
-        spacing[axis] = grid.spacing;
+        spacing[axis] = grid.spacing[int(axis)];
         origin[axis] = grid.origin[int(axis)];
     }
     image->SetRegions(typename Image::RegionType(size));
     image->SetSpacing(spacing);
     image->SetOrigin(origin);
     image->Allocate();
-    std::copy_n(reinterpret_cast<const Pixel*>(values.data()), values.size(), image->GetBufferPointer());
+    std::copy_n(reinterpret_cast<const Pixel*>(values.data()), values.size() * sizeof(Value) / sizeof(Pixel),
+                image->GetBufferPointer());
 
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     const Temporary temporary{folder /
@@ -95,7 +108,57 @@ Status writeImage(const sim::DisplacementGrid& grid, const std::vector<Value>& v
 } // namespace
 
 Status writeDisplacementImage(const sim::DisplacementGrid& grid, const fs::path& file) {
-    return writeImage<itk::Vector<float, 3>>(grid, grid.vectors, file);
+    return writeImage<itk::Vector<float, 3>>(placed(grid), grid.vectors, file);
+}
+
+Status writeVectorImage(const VectorImage& image, const fs::path& file) {
+    const Placed grid{image.size, image.spacing, image.origin};
+    if (image.components == 3)
+        return writeImage<itk::Vector<float, 3>>(grid, image.values, file);
+    if (image.components == 4)
+        return writeImage<itk::Vector<float, 4>>(grid, image.values, file);
+    return Error{file.string() + ": an image of " + std::to_string(image.components) +
+                 " components a voxel is not written: three or four are"};
+}
+
+Result<VectorImage> readVectorImage(const fs::path& file) {
+    const std::string name = file.string();
+    const itk::ImageIOBase::Pointer io = imageIo(file.extension().string());
+    if (!io)
+        return Error{name + ": unknown extension for an image; use .nrrd or .mha"};
+    if (!fs::is_regular_file(file))
+        return Error{name + ": no such file"};
+    try {
+        io->SetFileName(name);
+        io->ReadImageInformation();
+        if (io->GetNumberOfDimensions() != 3 || io->GetNumberOfComponents() < 2)
+            return Error{name + ": has " + std::to_string(io->GetNumberOfDimensions()) + " dimensions and " +
+                         std::to_string(io->GetNumberOfComponents()) +
+                         " numbers a voxel: give a volume of vectors"};
+        using Image = itk::VectorImage<float, 3>;
+        const auto reader = itk::ImageFileReader<Image>::New();
+        reader->SetImageIO(io);
+        reader->SetFileName(name);
+        reader->Update();
+        const Image& image = *reader->GetOutput();
+        VectorImage read;
+        read.components = int(image.GetNumberOfComponentsPerPixel());
+        std::size_t count = std::size_t(read.components);
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            read.size[int(axis)] = int(image.GetLargestPossibleRegion().GetSize()[axis]);
+            read.spacing[int(axis)] = image.GetSpacing()[axis];
+            read.origin[int(axis)] = image.GetOrigin()[axis];
+            count *= std::size_t(read.size[int(axis)]);
+            for (unsigned other = 0; other < 3; ++other)
+                if (std::abs(image.GetDirection()(axis, other) - (axis == other ? 1 : 0)) > 1e-6)
+                    return Error{name +
+                                 ": its axes are turned or mirrored: resample it to axes along x, y, z"};
+        }
+        read.values.assign(image.GetBufferPointer(), image.GetBufferPointer() + count);
+        return read;
+    } catch (const itk::ExceptionObject& problem) {
+        return Error{name + ": ITK cannot read it: " + firstLine(problem.GetDescription())};
+    }
 }
 
 const char* imageLibraryVersion() {
@@ -103,7 +166,7 @@ const char* imageLibraryVersion() {
 }
 
 Status writeNodeMask(const sim::DisplacementGrid& grid, const fs::path& file) {
-    return writeImage<unsigned char>(grid, grid.hasNode, file);
+    return writeImage<unsigned char>(placed(grid), grid.hasNode, file);
 }
 
 } // namespace serosa::app

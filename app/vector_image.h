@@ -1,11 +1,12 @@
 #pragma once
-// Images of a lattice's displacement for medical image programs, through ITK, which the program alone is
+// Images of displacements for and from medical image programs, through ITK, which the program alone is
 // linked with: no library of ours and no header needs it.
 
 #include "base/result.h"
 #include "sim/displacement.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace serosa::app {
 
@@ -16,6 +17,20 @@ Status writeDisplacementImage(const sim::DisplacementGrid& grid, const std::file
 
 /// The same grid with one byte a node: 1 where the lattice has a node, 0 elsewhere.
 Status writeNodeMask(const sim::DisplacementGrid& grid, const std::filesystem::path& file);
+
+/// An image of vectors, its axes those of the world without a turn; x fastest.
+struct VectorImage {
+    glm::ivec3 size{0};
+    glm::dvec3 spacing{1}, origin{0}; // mm; origin: of the first voxel's middle
+    int components = 3;
+    std::vector<float> values; // `components` a voxel
+};
+
+/// Three or four components, as above. Errors: as writeDisplacementImage; another number of components.
+Status writeVectorImage(const VectorImage& image, const std::filesystem::path& file);
+/// Numbers of any type, .nrrd or .mha. Errors: of the file; not of three dimensions; one component; turned
+/// axes.
+Result<VectorImage> readVectorImage(const std::filesystem::path& file);
 
 /// ITK's, such as "5.2.1".
 const char* imageLibraryVersion();

@@ -237,6 +237,8 @@ private:
         redraws_ = std::max(0, redraws_ - 1);
         lastDraw_ = Clock::now();
         render::View view = currentView();
+        if (const Status moved = parts_.implicit.moveTo(player_.time(), *parts_.renderer); !moved.ok())
+            say(moved.error().message, true);
         view.casters = parts_.implicit.casters(parts_.textures(), *parts_.renderer);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
@@ -327,6 +329,8 @@ Result<int> runView(const ViewOptions& options, std::ostream& out) {
     const InterruptGuard interrupt;
     View view(parts, *window, options, out);
     for (const std::string& note : parts.toolNotes)
+        out << "note: " << note << std::endl;
+    for (const std::string& note : parts.implicit.notes())
         out << "note: " << note << std::endl;
     for (const std::string& note : contactNotes(parts.scene, parts.placedOrgans()))
         out << "note: " << note << std::endl;

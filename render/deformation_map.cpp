@@ -111,6 +111,60 @@ Point<T> closed(const DeformationMap& map, const Point<T>& shown) {
     return {shown.x < 0.0 ? T(-rest) : rest, shown.y, shown.z};
 }
 
+/// The place of a path that is nearest to a point.
+template <class T>
+struct OnPath {
+    T x, z, far, along; // along: 0 where the path begins, 1 where it ends
+};
+
+template <class T>
+OnPath<T> nearestOnPath(const std::vector<glm::dvec2>& path, const T& x, const T& z) {
+    double whole = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+        whole += glm::distance(path[i - 1], path[i]);
+    OnPath<T> best{};
+    bool any = false;
+    double before = 0;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+        const glm::dvec2 a = path[i - 1], by = path[i] - a;
+        const double length = glm::length(by);
+        T share = ((x - a.x) * by.x + (z - a.y) * by.y) / (length * length);
+        share = share < 0.0 ? T(0.0 * share) : share > 1.0 ? T(1.0 + 0.0 * share) : share;
+        const T nx = a.x + share * by.x, nz = a.y + share * by.y;
+        const T far = radiusOf(T(x - nx), T(z - nz));
+        if (!any || far < best.far)
+            best = {nx, nz, far, T((before + share * length) / whole)};
+        any = true;
+        before += length;
+    }
+    return best;
+}
+
+/// Half of the opening of an incision: negative below it.
+template <class T>
+T openingAlong(const DeformationMap& map, const T& y, const T& along) {
+    const T down = 1.0 - (map.half.y - y) / map.depth, lens = 4.0 * along * (1.0 - along);
+    return map.amount * (down > 0.0 ? T(down * lens) : down);
+}
+
+template <class T>
+Point<T> closedAlong(const DeformationMap& map, const Point<T>& shown) {
+    const OnPath<T> at = nearestOnPath(map.path, shown.x, shown.z);
+    const T open = openingAlong(map, shown.y, at.along);
+    const double w = 0.5 * map.width;
+    if (open <= 0.0 || at.far >= w)
+        return shown;
+    if (at.far <= open)
+        return {at.x, shown.y, at.z};
+    const T share = (at.far - open) * w / (w - open) / at.far;
+    return {T(at.x + share * (shown.x - at.x)), shown.y, T(at.z + share * (shown.z - at.z))};
+}
+
+/// Lengths of the box that is cut away.
+glm::dvec3 cutBox(const DeformationMap& map) {
+    return {map.extent, map.depth, map.width};
+}
+
 /// Where the layer's ground lies.
 double groundOf(const DeformationMap& map) {
     return -map.half.y + map.depth;
@@ -216,6 +270,8 @@ Point<T> rest(const DeformationMap& map, const Point<T>& shown) {
     case MapKind::knife:
     case MapKind::seam:
         return closed(map, shown);
+    case MapKind::incision:
+        return closedAlong(map, shown);
     case MapKind::peel: {
         const Unrolled<T> flap = unroll(map, shown);
         if (!flap.any)
@@ -224,6 +280,8 @@ Point<T> rest(const DeformationMap& map, const Point<T>& shown) {
         const bool isFlap = shown.x > map.amount ? onFlap > onGround(map, shown) : rolledOver(map, flap, 0.0);
         return isFlap ? flap.rest : shown;
     }
+    default:
+        return shown;
     }
     return shown;
 }
@@ -250,12 +308,13 @@ double lifted(const DeformationMap& map, double y, double up) {
 } // namespace
 
 const char* nameOf(MapKind kind) {
-    static const char* const kNames[] = {"twist", "bend", "pull", "peel", "wave", "knife", "seam"};
+    static const char* const kNames[] = {"twist",    "bend",   "pull", "peel",   "wave",  "knife",  "seam",
+                                         "incision", "sphere", "box",  "points", "image", "texture"};
     return kNames[int(kind)];
 }
 
 std::optional<MapKind> parseMapKind(std::string_view name) {
-    for (int i = 0; i <= int(MapKind::seam); ++i)
+    for (int i = 0; i <= int(MapKind::box); ++i)
         if (name == nameOf(MapKind(i)))
             return MapKind(i);
     return std::nullopt;
@@ -291,8 +350,25 @@ std::string problemOf(const DeformationMap& map) {
         if (!(map.depth > 0 && map.depth < tall && map.width > 0))
             return "its depth must lie within the box, and its width be more than 0";
         return map.radius > tall - map.depth ? "" : "its radius must be more than the layer's thickness";
+    case MapKind::incision:
+        if (!(map.depth > 0 && map.width > 0) || map.path.size() < 2)
+            return "its depth and its width must be more than 0, and its path have two places";
+        for (const glm::dvec2& at : map.path)
+            if (std::abs(at.x) > map.half.x || std::abs(at.y) > map.half.z)
+                return "its path leaves its box";
+        return map.amount >= 0 && map.amount < 0.45 * map.width
+                   ? ""
+                   : "its amount, half of the opening, must be between 0 and 0.45 of its width";
+    case MapKind::sphere:
+        return map.radius > 0 ? "" : "its radius must be more than 0";
+    case MapKind::box: {
+        const glm::dvec3 size = cutBox(map);
+        return std::min({size.x, size.y, size.z}) > 0 ? ""
+                                                      : "its extent, depth and width must be more than 0";
     }
-    return "";
+    default:
+        return "it is no closed-form map";
+    }
 }
 
 glm::dvec3 inverseDisplacement(const DeformationMap& map, const glm::dvec3& shown) {
@@ -337,6 +413,14 @@ glm::dvec3 forward(const DeformationMap& map, const glm::dvec3& at) {
             return at;
         return {std::copysign(open + far * (1 - open / w), at.x), at.y, at.z};
     }
+    case MapKind::incision: {
+        const OnPath<double> near = nearestOnPath(map.path, at.x, at.z);
+        const double open = openingAlong(map, at.y, near.along), w = 0.5 * map.width;
+        if (open <= 0 || near.far >= w)
+            return at;
+        const double share = 1 - open / w + open / near.far;
+        return {near.x + share * (at.x - near.x), at.y, near.z + share * (at.z - near.z)};
+    }
     case MapKind::peel: {
         const double ground = groundOf(map), r = map.radius;
         if (leftOfLine(map, at.x) || insideLayer(map, Point<double>{at.x, at.y, at.z}) <= 0)
@@ -346,8 +430,9 @@ glm::dvec3 forward(const DeformationMap& map, const glm::dvec3& at) {
         return {map.amount + from * std::sin(angle) + over * std::cos(angle),
                 ground + r - from * std::cos(angle) + over * std::sin(angle), at.z};
     }
+    default:
+        return at;
     }
-    return at;
 }
 
 double kept(const DeformationMap& map, const glm::dvec3& shown, double gap) {
@@ -355,6 +440,16 @@ double kept(const DeformationMap& map, const glm::dvec3& shown, double gap) {
     const Point<double> q{shown.x, shown.y, shown.z};
     if (map.kind == MapKind::knife || map.kind == MapKind::seam)
         return std::abs(shown.x) - opening(map, shown.y, shown.z);
+    if (map.kind == MapKind::incision) {
+        const OnPath<double> at = nearestOnPath(map.path, q.x, q.z);
+        return at.far - openingAlong(map, q.y, at.along);
+    }
+    if (map.kind == MapKind::sphere)
+        return glm::length(shown) - map.radius;
+    if (map.kind == MapKind::box) {
+        const glm::dvec3 out = glm::abs(shown) - 0.5 * cutBox(map);
+        return glm::length(glm::max(out, glm::dvec3(0))) + std::min(std::max({out.x, out.y, out.z}), 0.0);
+    }
     if (map.kind != MapKind::peel)
         return big;
     const Unrolled<double> flap = unroll(map, q);
@@ -391,8 +486,22 @@ BoxFaces zeroFaces(const DeformationMap& map) {
     case MapKind::peel:
         return {{map.amount > -map.half.x, false, true, false, map.width <= 2 * map.half.z,
                  map.width <= 2 * map.half.z}};
+    case MapKind::incision: {
+        glm::dvec2 most(0);
+        for (const glm::dvec2& at : map.path)
+            most = glm::max(most, glm::abs(at));
+        const bool x = most.x + 0.5 * map.width <= map.half.x, z = most.y + 0.5 * map.width <= map.half.z;
+        return {{x, x, map.depth <= 2 * map.half.y, false, z, z}};
     }
-    return {};
+    case MapKind::sphere:
+    case MapKind::box: {
+        const glm::dvec3 reach = map.kind == MapKind::sphere ? glm::dvec3(map.radius) : 0.5 * cutBox(map);
+        const glm::bvec3 within = glm::lessThan(reach, map.half);
+        return {{within.x, within.x, within.y, within.y, within.z, within.z}};
+    }
+    default:
+        return {};
+    }
 }
 
 } // namespace serosa::render

@@ -21,9 +21,14 @@
 //   knife  opens a cut in the plane x = 0 from the top down to `depth`, of length `extent` along z, by
 //          +-amount o(y, z), a lens along z and a wedge along y: |x| = (|x'| - o) w / (w - o), w = half.x.
 //   seam   the same, zipped open from the +z face to z = half.z - extent.
+//   incision  the same along a path in x and z, from its first place to its last: tissue gives way over
+//          `width`, half of it to either side, to where the nearest place of the path is. Where that jumps
+//          (inside of a bend narrower than that), so does D.
+//   sphere, box  cut away what lies in a ball of `radius`, or in a box of extent x depth x width, in the
+//          middle; nothing moves (CSG).
 //
-// The papers give no formula for peel, wave, knife and seam: these are ours. In the gap of a cut D leads to
-// its middle, so that it stays continuous, and the mask says that nothing is there.
+// The papers give no formula for peel, wave, knife, seam and incision: these are ours. In the gap of a cut D
+// leads to its middle, so that it stays continuous, and the mask says that nothing is there.
 
 #include "sim/scene.h"
 
@@ -44,15 +49,17 @@ struct DeformationMap {
     MapKind kind = MapKind::twist;
     glm::dvec3 half{0.5}; // of the box, m
     double amount = 0;    // radians (twist, bend) or m
-    double radius = 0.1;  // m: pull (standard deviation, or where a narrow one ends), peel
-    double extent = 0.5;  // m: bend, wave, knife, seam
-    double depth = 0.1;   // m: peel, knife, seam
-    double width = 0.5;   // m: peel
+    double radius = 0.1;  // m: pull (standard deviation, or where a narrow one ends), peel, sphere
+    double extent = 0.5;  // m: bend, wave, knife, seam, box
+    double depth = 0.1;   // m: peel, knife, seam, incision, box
+    double width = 0.5;   // m: peel, incision, box
+    std::vector<glm::dvec2> path = {}; // of an incision: x and z, m
     PullProfile profile = PullProfile::gaussian;
 };
 
 /// "twist", ...
 const char* nameOf(MapKind kind);
+/// Of those that are maps: not of points and files.
 std::optional<MapKind> parseMapKind(std::string_view name);
 
 /// What is wrong with the numbers: a map that folds (its inverse would not be one), or does not fit its box.

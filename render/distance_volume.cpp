@@ -2,6 +2,7 @@
 #include "render/distance_volume.h"
 
 #include "gpu/program.h"
+#include "render/distance_tree.h"
 #include "render/parallel.h"
 #include "shaders/raycast_constants.h"
 #include "sim/node_depths.h"
@@ -15,7 +16,7 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kLeastBand = 2;     // voxels
+constexpr int kNarrowBand = 2;    // voxels
 constexpr int kMostVoxels = 1023; // along a side: jump flooding packs a place in ten bits an axis
 
 /// Angle-weighted normals: of faces, of the three edges of each (0-1, 1-2, 2-0), of vertices; not normalized.
@@ -23,14 +24,14 @@ struct PseudoNormals {
     std::vector<glm::vec4> faces, edges, vertices;
 };
 
-Result<PseudoNormals> pseudoNormals(const sim::TriangleMesh& mesh) {
+Result<PseudoNormals> pseudoNormals(const std::vector<glm::dvec3>& positions,
+                                    const std::vector<glm::uvec3>& triangles) {
     PseudoNormals normals;
     std::map<std::pair<std::uint32_t, std::uint32_t>, glm::dvec3> edges;
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-    std::vector<glm::dvec3> vertices(mesh.positions.size(), glm::dvec3(0)), faces;
-    for (const glm::uvec3& face : mesh.faces) {
-        const glm::dvec3 &a = mesh.positions[face.x], &b = mesh.positions[face.y],
-                         &c = mesh.positions[face.z];
+    std::vector<glm::dvec3> vertices(positions.size(), glm::dvec3(0)), faces;
+    for (const glm::uvec3& face : triangles) {
+        const glm::dvec3 &a = positions[face.x], &b = positions[face.y], &c = positions[face.z];
         const glm::dvec3 area = glm::cross(b - a, c - a);
         const double twice = glm::length(area);
         const glm::dvec3 n = twice > 0 ? area / twice : glm::dvec3(0);
@@ -39,8 +40,7 @@ Result<PseudoNormals> pseudoNormals(const sim::TriangleMesh& mesh) {
             const std::uint32_t from = face[k], to = face[(k + 1) % 3], before = face[(k + 2) % 3];
             edges[std::minmax(from, to)] += n;
             balance[std::minmax(from, to)] += from < to ? 1 : -1;
-            const glm::dvec3 e = mesh.positions[to] - mesh.positions[from],
-                             g = mesh.positions[before] - mesh.positions[from];
+            const glm::dvec3 e = positions[to] - positions[from], g = positions[before] - positions[from];
             vertices[from] += n * std::atan2(glm::length(glm::cross(e, g)), glm::dot(e, g));
         }
     }
@@ -49,10 +49,10 @@ Result<PseudoNormals> pseudoNormals(const sim::TriangleMesh& mesh) {
             return Error{"the mesh is open at the edge of vertices " + std::to_string(edge.first) + " and " +
                          std::to_string(edge.second) +
                          ": a distance field has an inside; close it first (serosa repair)"};
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
         normals.faces.emplace_back(faces[i], 0);
         for (int k = 0; k < 3; ++k)
-            normals.edges.emplace_back(edges[std::minmax(mesh.faces[i][k], mesh.faces[i][(k + 1) % 3])], 0);
+            normals.edges.emplace_back(edges[std::minmax(triangles[i][k], triangles[i][(k + 1) % 3])], 0);
     }
     for (const glm::dvec3& n : vertices)
         normals.vertices.emplace_back(n, 0);
@@ -72,23 +72,27 @@ VolumeGrid VolumeGrid::around(const glm::dvec3& lowest, const glm::dvec3& highes
 }
 
 Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, const VolumeGrid& grid,
-                                              double band) {
+                                              double band, const std::vector<glm::u8vec4>& colours) {
     if (mesh.faces.empty())
         return Error{"a distance field of a mesh without faces"};
     if (std::max({grid.size.x, grid.size.y, grid.size.z}) > kMostVoxels)
         return Error{"a distance field of " +
                      std::to_string(std::max({grid.size.x, grid.size.y, grid.size.z})) +
                      " voxels along a side: at most " + std::to_string(kMostVoxels)};
-    SEROSA_ASSIGN(const PseudoNormals normals, pseudoNormals(mesh));
-    const int voxels = std::max(kLeastBand, int(std::ceil(band / grid.step)));
     std::vector<glm::vec4> positions;
     for (const glm::dvec3& p : mesh.positions)
         positions.emplace_back(glm::vec3((p - grid.lowest) / grid.step), 0);
+    const DistanceTree tree = DistanceTree::create(positions, mesh.faces);
+    std::vector<glm::uvec3> faces; // in the tree's order
     std::vector<glm::uvec4> triangles;
-    for (const glm::uvec3& face : mesh.faces)
-        triangles.emplace_back(face, 0);
+    for (const std::uint32_t face : tree.order) {
+        faces.push_back(mesh.faces[face]);
+        triangles.emplace_back(mesh.faces[face], 0);
+    }
+    SEROSA_ASSIGN(const PseudoNormals normals, pseudoNormals(mesh.positions, faces));
     const gpu::Buffer vertexBuffer("vertices of a distance field", std::span<const glm::vec4>(positions)),
         triangleBuffer("triangles of a distance field", std::span<const glm::uvec4>(triangles)),
+        treeBuffer("boxes of a distance field", std::span<const DistanceTree::Node>(tree.nodes)),
         faceBuffer("normals of faces", std::span<const glm::vec4>(normals.faces)),
         edgeBuffer("normals of edges", std::span<const glm::vec4>(normals.edges)),
         cornerBuffer("normals of corners", std::span<const glm::vec4>(normals.vertices));
@@ -108,6 +112,7 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
     SEROSA_ASSIGN(gpu::Program claim, program("distance_splat.comp", {{"DISTANCE_CLAIM", "1"}}));
     SEROSA_ASSIGN(gpu::Program begin, program("distance_flood.comp", {{"FLOOD_BEGIN", "1"}}));
     SEROSA_ASSIGN(gpu::Program flood, program("distance_flood.comp", {}));
+    SEROSA_ASSIGN(gpu::Program nearest, program("distance_nearest.comp", {}));
     SEROSA_ASSIGN(gpu::Program finish, program("distance_finish.comp", {}));
     const auto barrier = [] {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
@@ -116,7 +121,9 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
     least.clear(0x7f800000u); // infinity
     owner.clear(0xffffffffu);
     for (gpu::Program* one : {&splat, &claim}) {
-        one->set("u_size", grid.size).set("u_band", float(voxels)).set("u_triangles", int(triangles.size()));
+        one->set("u_size", grid.size)
+            .set("u_band", float(kNarrowBand))
+            .set("u_triangles", int(triangles.size()));
         one->buffer("b_vertices", vertexBuffer).buffer("b_triangles", triangleBuffer);
         one->image("i_least", least, GL_READ_WRITE);
         if (one == &claim)
@@ -140,14 +147,37 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
             barrier();
             std::swap(seeds, next);
         }
+    nearest.set("u_size", grid.size).set("u_band", float(band / grid.step));
+    nearest.set("u_nodes", int(tree.nodes.size())).buffer("b_tree", treeBuffer);
+    nearest.buffer("b_vertices", vertexBuffer).buffer("b_triangles", triangleBuffer);
+    nearest.image("i_owner", owner, GL_READ_ONLY).image("i_seeds", seeds, GL_READ_ONLY);
+    nearest.image("i_nearest", least, GL_WRITE_ONLY); // what it held is no longer needed
+    nearest.dispatch(grid.size);
+    barrier();
     finish.set("u_size", grid.size);
     finish.buffer("b_vertices", vertexBuffer).buffer("b_triangles", triangleBuffer);
     finish.buffer("b_faceNormals", faceBuffer).buffer("b_edgeNormals", edgeBuffer);
     finish.buffer("b_cornerNormals", cornerBuffer);
     finish.image("i_owner", owner, GL_READ_ONLY).image("i_seeds", seeds, GL_READ_ONLY);
+    finish.image("i_nearest", least, GL_READ_ONLY);
     finish.image("i_distance", volume.texture_, GL_WRITE_ONLY);
     finish.dispatch(grid.size);
     barrier();
+    if (!colours.empty()) {
+        std::vector<std::uint32_t> packed;
+        for (const glm::u8vec4& c : colours)
+            packed.push_back(std::uint32_t(c.r) | std::uint32_t(c.g) << 8 | std::uint32_t(c.b) << 16 |
+                             std::uint32_t(c.a) << 24);
+        const gpu::Buffer colourBuffer("colours of a distance field", std::span<const std::uint32_t>(packed));
+        SEROSA_ASSIGN(gpu::Program colour, program("distance_colour.comp", {}));
+        volume.colours_.emplace("colours of the nearest surface", grid.size);
+        colour.set("u_size", grid.size).buffer("b_colours", colourBuffer);
+        colour.buffer("b_vertices", vertexBuffer).buffer("b_triangles", triangleBuffer);
+        colour.image("i_nearest", least, GL_READ_ONLY).image("i_colour", *volume.colours_, GL_WRITE_ONLY);
+        colour.dispatch(grid.size);
+        barrier();
+        glFinish();
+    }
     glFinish(); // the buffers die here
     return volume;
 }

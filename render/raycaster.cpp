@@ -80,6 +80,15 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     highest_ = glm::max(highest_, glm::min(high, highest_ + most)) + grid.step;
 }
 
+void Raycaster::setStage(const std::optional<StageBox>& stage) {
+    stage_ = stage;
+    if (!stage)
+        return;
+    const auto [low, high] = stage->bounds();
+    lowest_ = glm::max(lowest_, low - volume_->grid().step);
+    highest_ = glm::min(highest_, high + volume_->grid().step);
+}
+
 Result<gpu::Program*> Raycaster::program(const Variant& variant) {
     const auto found = programs_.find(variant);
     if (found != programs_.end())
@@ -92,6 +101,10 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_CUT", "1"});
     if (variant.warped)
         defines.push_back({"RAYCAST_WARP", "1"});
+    if (variant.staged)
+        defines.push_back({"RAYCAST_STAGE", "1"});
+    if (variant.coloured)
+        defines.push_back({"RAYCAST_COLOURED", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -102,7 +115,7 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     SEROSA_ASSIGN(gpu::Program* const made,
                   program({look.solid, look.search, lattice_ != nullptr, lattice_ && lattice_->isCut(),
-                           mapping_.has_value(), probe}));
+                           mapping_.has_value(), stage_.has_value(), volume_->colours() && !probe, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -129,17 +142,30 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
         program.texture("t_displacement", displacement_);
     }
+    if (stage_) {
+        stage_->set(program, origin_, unit_);
+        program.set("u_seamLift", float(voxel));
+    }
     if (probe) {
         program.set("u_eye", frame.eye);
     } else {
         frame.setTissueLight(program, none_);
-        program.set("u_skin", look.skin).set("u_inner", look.inner).set("u_flesh", look.flesh);
+        program.set("u_inner", look.inner).set("u_flesh", look.flesh);
+        if (volume_->colours())
+            program.texture("t_colours", *volume_->colours());
+        else
+            program.set("u_skin", look.skin);
     }
     program.use();
     glBindVertexArray(empty_.id());
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT); // the far faces: a camera may be inside
+    if (stage_ && !probe) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    }
     glDrawArrays(GL_TRIANGLES, 0, 36);
+    glDisable(GL_BLEND);
     glCullFace(GL_BACK);
     return {};
 }

@@ -13,6 +13,7 @@
 #include "render/distance_volume.h"
 #include "render/frame.h"
 #include "render/lattice_warp.h"
+#include "render/stage_box.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
 #include "sim/scene.h"
@@ -61,6 +62,9 @@ public:
     /// The organ as its lattice has it, from now on; null: at rest. A warp then acts on the organ at rest.
     /// \param lattice outlives this
     void setLattice(const LatticeWarp* lattice) { lattice_ = lattice; }
+    /// What is ray-cast lies in this box, and its colour goes over what was drawn before by its seam;
+    /// nothing: all is, after setWarp.
+    void setStage(const std::optional<StageBox>& stage);
     /// Bounds of what may be drawn, m: the field's, and where the warp can take it; of a lattice: its own.
     const glm::dvec3& lowest() const { return lowest_; }
     const glm::dvec3& highest() const { return highest_; }
@@ -75,7 +79,7 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool lattice, cut, warped, probe;
+        bool lattice, cut, warped, staged, coloured, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -90,6 +94,7 @@ private:
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m
+    std::optional<StageBox> stage_;
     glm::dvec3 lowest_{0}, highest_{0};
     gpu::VertexArray empty_;
     gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion

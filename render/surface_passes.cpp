@@ -33,7 +33,8 @@ glm::u8vec4 vertexColour(const glm::u8vec3& srgb, float open) {
     return {rootOfLinear(srgb.r), rootOfLinear(srgb.g), rootOfLinear(srgb.b), std::lround(255 * open)};
 }
 
-/// \param bare linear colour of a mesh without colours; null: flesh
+} // namespace
+
 std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm::vec3* bare) {
     const std::vector<float> open = bakeOcclusion(mesh);
     std::vector<glm::u8vec4> colours;
@@ -44,6 +45,8 @@ std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm:
     }
     return colours;
 }
+
+namespace {
 
 constexpr SurfaceColour kColours[] = {SurfaceColour::tissue, SurfaceColour::dynamicNormal,
                                       SurfaceColour::plain};
@@ -119,6 +122,8 @@ std::vector<gpu::ShaderDefine> SurfacePasses::defines(SurfaceStage stage) const 
         all.push_back({"SURFACE_REST", ""});
     if (mask_)
         all.push_back({"SURFACE_CUT", ""});
+    if (box_)
+        all.push_back({"SURFACE_BOX", ""});
     if (textures_)
         all.push_back({"SURFACE_TEXTURED", ""});
     if (textures_ && !drawn_.textures.empty())
@@ -314,6 +319,8 @@ gpu::Program& SurfacePasses::prepare(const sim::StateTextures& state, const Fram
         mask_->bind(program);
         program.set("u_blood", frame.blood ? 1 : 0);
     }
+    if (box_ && stage != SurfaceStage::nodes)
+        box_->set(program, origin_, unit_);
     if (textures_ && stage != SurfaceStage::nodes) {
         program.texture("t_albedo", textures_->albedo).texture("t_relief", textures_->relief);
         program.set("u_albedoScale", textures_->albedoScale).set("u_tiles", textures_->tiles);

@@ -9,6 +9,7 @@
 #include "render/frame.h"
 #include "render/frame_pass.h"
 #include "render/side_nodes.h"
+#include "render/stage_box.h"
 #include "render/surface_binding.h"
 #include "render/surface_clusters.h"
 #include "render/surface_seams.h"
@@ -31,6 +32,10 @@ enum class SurfaceStage { undeformed, nodes, constant, corrected, chosen, alongN
 
 /// The stage that draws a mapping.
 SurfaceStage stageOf(sim::Mapping mapping);
+
+/// Square root of the linear colour of each vertex, and the light of the surround that arrives there.
+/// \param bare linear colour of a mesh without colours; null: flesh
+std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm::vec3* bare);
 
 inline constexpr glm::vec3 kFleshColour{0.342F, 0.048F, 0.037F}; // linear
 inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behind the lattice's lines
@@ -114,6 +119,12 @@ public:
 
     /// Makes the mask that strokes paint, and programs that ask it. Errors: of CutMask::create, of shaders.
     Status openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout);
+    /// Leaves out from now on what rests in this box beyond its seam (without one: all that does). The
+    /// arguments are those of create. Errors: of shaders.
+    Status openBox(const StageBox& box, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                   const std::vector<SurfaceBinding>& bindings);
+    /// Where it has moved to.
+    void setBox(const StageBox& box) { box_ = box; }
     /// Null before openMask.
     CutMask* mask() { return mask_ ? &*mask_ : nullptr; }
     const CutMask* mask() const { return mask_ ? &*mask_ : nullptr; }
@@ -159,7 +170,7 @@ private:
     void setNodes(gpu::Program& program, const sim::StateTextures& state, SurfaceStage stage);
     void setVertexInputs(gpu::Program& program, const sim::StateTextures& state, const Frame& frame,
                          SurfaceStage stage);
-    bool usesRest() const { return mask_ || textures_; }
+    bool usesRest() const { return mask_ || textures_ || box_; }
     std::size_t vertexCount() const { return newIndex_.size() + copies_.size(); }
     /// Items of mesh vertices, and after them of copies, as the buffers have them.
     template <class T>
@@ -216,6 +227,9 @@ private:
     RestBox restBox_;
     std::optional<CutMask> mask_;
     std::optional<SideNodes> sideNodes_; // of stage inCells, where there is a mask
+    std::optional<StageBox> box_;
+    glm::dvec3 origin_{0}; // m: of lattice units,
+    double unit_ = 1;      // and their size
 };
 
 } // namespace serosa::render

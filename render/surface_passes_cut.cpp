@@ -21,6 +21,21 @@ Status SurfacePasses::openMask(const sim::Lattice& lattice, const sim::TextureLa
     return recompile();
 }
 
+Status SurfacePasses::openBox(const StageBox& box, const sim::Lattice& lattice,
+                              const sim::TriangleMesh& metres, const std::vector<SurfaceBinding>& bindings) {
+    const bool had = usesRest();
+    box_ = box;
+    origin_ = lattice.toWorld(glm::dvec3(0));
+    unit_ = lattice.spacing;
+    if (!had) {
+        const RestNormals rest(lattice);
+        for (const SurfaceBinding& one : bindings)
+            createRest(one, lattice, metres, rest);
+        createStaticRest(lattice, metres);
+    }
+    return recompile();
+}
+
 Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
                            const sim::TriangleMesh& metres, const std::vector<SurfaceBinding>& bindings,
                            const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout) {

@@ -278,10 +278,13 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
         in.organs[i].surface.draw(*states[i], frames[i], SurfaceStage::nodes, sim::SurfaceColour::tissue,
                                   kCoreColour);
     glPolygonMode(GL_FRONT_AND_BACK, view.wireframe ? GL_LINE : GL_FILL);
-    const bool surface = view.look.surface && view.look.show != sim::Show::implicit;
-    for (std::size_t i = 0; i < in.organs.size() && surface; ++i)
+    const sim::Stage stage = view.look.show == sim::Show::implicit ? view.look.stage : sim::Stage::whole;
+    const bool implicit = view.look.show != sim::Show::surface && stage != sim::Stage::mesh;
+    const bool mesh =
+        view.look.show != sim::Show::implicit || stage == sim::Stage::mesh || stage == sim::Stage::composite;
+    for (std::size_t i = 0; i < in.organs.size() && view.look.surface && mesh; ++i)
         in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
-    for (std::size_t i = 0; i < view.casters.size() && view.look.show != sim::Show::surface; ++i) {
+    for (std::size_t i = 0; i < view.casters.size() && implicit; ++i) {
         const Status drawn = view.casters[i]->draw(frames[i], raycastLook(view.look));
         SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5");
     }
@@ -305,6 +308,16 @@ Status SurfaceRenderer::prepareSkipping(std::size_t organ, const sim::Lattice& l
                                         const sim::TriangleMesh& metres, const SurfaceBinding& binding,
                                         const sim::StateTextures& state) {
     return impl_->organs.at(organ).surface.prepareSkipping(lattice, metres, binding, state.layout());
+}
+
+Status SurfaceRenderer::openBox(std::size_t organ, const StageBox& box, const sim::Lattice& lattice,
+                                const sim::TriangleMesh& metres, const SurfaceBinding& binding) {
+    return impl_->organs.at(organ).surface.openBox(box, lattice, metres,
+                                                   withBothBases(binding, lattice, metres));
+}
+
+void SurfaceRenderer::setBox(std::size_t organ, const StageBox& box) {
+    impl_->organs.at(organ).surface.setBox(box);
 }
 
 Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& lattice,

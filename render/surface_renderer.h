@@ -23,6 +23,7 @@ namespace serosa::render {
 
 class CutMask;   // render/cut_mask.h
 class Raycaster; // render/raycaster.h
+struct StageBox; // render/stage_box.h
 
 /// What is drawn in one picture.
 struct View {
@@ -93,6 +94,11 @@ public:
     /// shader.
     Status prepareSkipping(std::size_t organ, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                            const SurfaceBinding& binding, const sim::StateTextures& state);
+    /// An organ's surface without what rests in a box that is ray-cast instead (render/stage_box.h): opened
+    /// once with what the organ was added with, then moved. Errors: of the shaders.
+    Status openBox(std::size_t organ, const StageBox& box, const sim::Lattice& lattice,
+                   const sim::TriangleMesh& metres, const SurfaceBinding& binding);
+    void setBox(std::size_t organ, const StageBox& box);
     /// Makes an organ's mask (render/cut_mask.h) before the first stroke does. Errors: of CutMask::create.
     Status prepareCuts(std::size_t organ, const sim::Lattice& lattice, const sim::TextureLayout& layout);
     /// Paints a stroke into an organ's mask, made by the first one, with the organ as `state` has it. Errors:

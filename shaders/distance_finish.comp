@@ -8,6 +8,7 @@ layout(std430) restrict readonly buffer b_edgeNormals { vec4 b_edgeNormal[]; }; 
 layout(std430) restrict readonly buffer b_cornerNormals { vec4 b_cornerNormal[]; };
 layout(r32ui) uniform restrict readonly uimage3D i_owner; // nearest triangle of a voxel of the band
 layout(r32ui) uniform restrict readonly uimage3D i_seeds; // nearest voxel of the band
+layout(r32ui) uniform restrict readonly uimage3D i_nearest; // triangle that is nearest to a voxel
 layout(r16f) uniform restrict writeonly image3D i_distance;
 uniform ivec3 u_size;
 
@@ -31,11 +32,10 @@ void main() {
     float value = 60000.0; // no surface at all
     if (seedAt != kNone) {
         ivec3 seed = ivec3(seedAt & 1023u, seedAt >> 10 & 1023u, seedAt >> 20 & 1023u);
-        uint triangle = imageLoad(i_owner, seed).x;
-        value = signedDistance(triangle, vec3(seed));
+        value = signedDistance(imageLoad(i_owner, seed).x, vec3(seed));
         if (seed != at) {
             int feature;
-            float far = distance(vec3(at), closestOf(triangle, vec3(at), feature));
+            float far = distance(vec3(at), closestOf(imageLoad(i_nearest, at).x, vec3(at), feature));
             value = value < 0.0 ? -far : far;
         }
     }

@@ -1,10 +1,10 @@
 #version 450 core
 // The deformation shader (CS07): a ray a pixel, warped back to rest sample by sample, until it meets the distance field there.
 // RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; kind and rest position.
+#include "shared_constants.h"
 #include "raycast_search.glsl"
 #include "lighting.glsl"
 #ifndef RAYCAST_PROBE
-#include "shared_constants.h"
 #include "tissue_light.glsl"
 #include "flesh.glsl"
 #endif
@@ -14,13 +14,36 @@ in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
 uniform float u_behind; // so much further off lies all but faces of cuts, lattice units
-uniform vec3 u_skin, u_inner, u_flesh; // linear: outside, inner side of a hollow or thick one, cut faces
+#ifdef RAYCAST_STAGE
+uniform float u_seamLift; // object space: the field and the surface differ by less
+#endif
+uniform vec3 u_inner, u_flesh; // linear: inner side of a hollow or thick one, cut faces
+#ifdef RAYCAST_COLOURED
+uniform sampler3D t_colours; // square root of the linear colour outside; light that arrives (render/distance_volume.h)
+#else
+uniform vec3 u_skin; // linear: outside
+#endif
 
 #ifdef RAYCAST_PROBE
 layout(location = 0) out vec4 o_normal; // xyz, t
 layout(location = 1) out vec4 o_rest;   // xyz; w 1 surface, 2 its inner side, 3 cut face
 #else
 out vec4 o_colour;
+#endif
+
+#ifndef RAYCAST_PROBE
+const float kInnerOpen = 0.8; // of the surround, in a cut
+
+/// Linear colour outside at rest, and light of the surround that arrives.
+vec4 skinAt(vec3 rest) {
+#ifdef RAYCAST_COLOURED
+    vec3 size = vec3(textureSize(t_colours, 0));
+    vec4 read = texture(t_colours, ((rest - u_fieldLowest) / u_fieldStep + 0.5) / size);
+    return vec4(read.rgb * read.rgb, read.a);
+#else
+    return vec4(u_skin, 1.0);
+#endif
+}
 #endif
 
 /// Where the ray is in the box: entry, exit.
@@ -42,7 +65,13 @@ void main() {
     if (!hit.any)
         discard;
     vec3 shown = from + hit.t * along, n = hitNormal(shown, hit);
-    vec4 clip = u_clipFromLattice * vec4(shown + (hit.face ? 0.0 : u_behind) * along, 1.0);
+    float behind = hit.face ? 0.0 : u_behind;
+#ifdef RAYCAST_STAGE
+    // In the seam it lies over the surface, which it covers the more the further in it is.
+    float seam = smoothstep(0.0, 1.0, stageAt(shown));
+    behind -= seam < 1.0 ? u_seamLift : 0.0;
+#endif
+    vec4 clip = u_clipFromLattice * vec4(shown + behind * along, 1.0);
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 #ifdef RAYCAST_PROBE
     o_normal = vec4(n, hit.t);
@@ -51,20 +80,24 @@ void main() {
     vec3 v = -along;
     if (dot(n, v) < 0.02)
         n = normalize(n + (0.02 - dot(n, v)) * v);
+    vec4 skin = skinAt(hit.rest);
     Tissue tissue;
     tissue.position = shown;
-    tissue.normal = tissue.film = n;
-    tissue.inside = false;
-    tissue.blood = 0.0;
-    tissue.open = hit.back ? 0.7 : 1.0;
-    tissue.albedo = hit.back ? u_inner : u_skin;
+    tissue.albedo = hit.back ? u_inner : skin.rgb;
+    tissue.open = hit.face || hit.back ? kInnerOpen : skin.a;
+    tissue.inside = hit.back;
+    tissue.normal = tissue.inside ? normalize(n + 0.8 * v) : n;
+    tissue.film = n;
     tissue.roughness = 0.36;
+    tissue.blood = 0.0;
     if (hit.face) {
         Flesh flesh = fleshAt(hit.rest, u_flesh);
         tissue.albedo = flesh.albedo;
         tissue.roughness = flesh.roughness;
-        tissue.open = 0.85;
     }
     o_colour = vec4(tissueLight(tissue, v), 1.0);
+#ifdef RAYCAST_STAGE
+    o_colour.a = seam;
+#endif
 #endif
 }

@@ -63,6 +63,16 @@ bool entersInside(Place place) {
     return false;
 #endif
 }
+#ifdef RAYCAST_STAGE
+#include "stage_box.glsl"
+
+float stageAt(vec3 shown) {
+#ifdef RAYCAST_LATTICE
+    shown += readLattice(shown).xyz;
+#endif
+    return stageDepth(shown);
+}
+#endif
 
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
@@ -76,6 +86,10 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
         bool crossed = (before.body < 0.0) != (now.body < 0.0);
 #else
         bool crossed = !matter(before) && matter(now);
+#endif
+#ifdef RAYCAST_STAGE
+        // What lies beyond the box is the surface pass's.
+        crossed = crossed && stageAt(from + t * along) >= 0.0 && stageAt(from + next * along) >= 0.0;
 #endif
         if (crossed) {
             float low = t, high = next;

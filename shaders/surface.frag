@@ -18,6 +18,9 @@ in vec3 v_rest;
 flat in float v_side;
 uniform bool u_blood;
 #endif
+#ifdef SURFACE_BOX
+#include "stage_box.glsl"
+#endif
 #ifdef SURFACE_TEXTURED
 #include "tissue_texture.glsl"
 in mat3 v_turn; // to now from rest
@@ -54,6 +57,10 @@ void main() {
         discard;
     if (u_blood)
         tissue.blood = bloodAt(v_rest, mask.b * SRS_MASK_REACH);
+#endif
+#ifdef SURFACE_BOX
+    if (stageDepth(v_rest) > 1.0)
+        discard;
 #endif
     // The surface is closed: where its inner side shows through a section, solid tissue has been cut.
     if (!gl_FrontFacing && u_section.xyz != vec3(0.0)) {

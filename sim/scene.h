@@ -118,8 +118,12 @@ enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 enum class Show { surface, implicit, both };
 /// What is in it, where it is ray-cast.
 enum class Interior { hollow, solid, shell };
+/// What is drawn of an organ that is ray-cast where its deformation's box is (render/stage_box.h).
+enum class Stage { whole, mesh, box, composite };
+
 struct Look {
     Show show = Show::surface;
+    Stage stage = Stage::whole;
     Interior interior = Interior::solid;
     double shell = 0.008;  // m: its thickness
     int fieldSamples = 96; // of the distance field, along the organ's longest side
@@ -133,8 +137,30 @@ struct Look {
     bool blood = true;      // a film of it beside fresh cuts
 };
 
-/// A closed-form deformation of what is ray-cast (render/deformation_map.h has the maps).
-enum class DeformationKind { twist, bend, pull, peel, wave, knife, seam };
+/// A deformation of what is ray-cast: a closed-form map (render/deformation_map.h), control points, a forward
+/// displacement or a deformation texture from a file.
+enum class DeformationKind {
+    twist,
+    bend,
+    pull,
+    peel,
+    wave,
+    knife,
+    seam,
+    incision,
+    sphere,
+    box,
+    points,
+    image,
+    texture
+};
+enum class TexelWord { bytes, half, single }; // 4, 8, 16 bytes a texel
+struct DeformationKey {
+    double time = 0;  // s
+    glm::dvec3 at{0}; // m: middle of the box
+    double turn = 0;  // rad, about the box's own y axis
+    double scale = 1; // of the box, and of all that the map does
+};
 struct Deformation {
     DeformationKind kind = DeformationKind::twist;
     glm::dvec3 at{0}, size{0};                           // of its box: middle, lengths along its own axes, m
@@ -144,7 +170,16 @@ struct Deformation {
     bool narrow = false;                                 // of a pull
     double wound = 0; // m: radius of the cylinder that its box is wound around; 0: none
     glm::ivec3 texels{64};
-    int line = 0; // of the scene file
+    TexelWord format = TexelWord::half;
+    std::vector<glm::dvec2> path;                          // incision: in the plane y = 0 of the box, m
+    std::vector<std::pair<glm::dvec3, glm::dvec3>> points; // from, to: in its own axes, from its middle, m
+    double reach = 0;                                      // of a point, m
+    std::filesystem::path file;                            // image, texture
+    std::vector<DeformationKey> keys;                      // where it goes; empty: it stays
+    int line = 0;                                          // of the scene file
+
+    /// Where it is at a time, between two keys evenly; before the first and after the last, as there.
+    DeformationKey placeAt(double time) const;
 };
 
 enum class ImageFormat { nrrd, mha };
@@ -171,8 +206,8 @@ struct Scene {
     std::vector<Tool> tools;
     std::vector<Body> bodies;
     std::vector<Thread> threads;
-    std::vector<Cut> cuts;                  // of every organ
-    std::optional<Deformation> deformation; // of all that is ray-cast
+    std::vector<Cut> cuts;                 // of every organ
+    std::vector<Deformation> deformations; // of all that is ray-cast, the first next to its rest
     Camera camera;
     Light light;
     Look look;

@@ -115,6 +115,7 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("mapping", scene.look.mapping));
     SEROSA_TRY(look.readWord("colour", scene.look.colour));
     SEROSA_TRY(look.readWord("show", scene.look.show));
+    SEROSA_TRY(look.readWord("stage", scene.look.stage));
     SEROSA_TRY(look.readWord("interior", scene.look.interior));
     SEROSA_TRY(look.read("shell", scene.look.shell));
     SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
@@ -208,7 +209,7 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     SEROSA_ASSIGN(const toml::table* light, top.table("light"));
     SEROSA_ASSIGN(const toml::table* look, top.table("look"));
     SEROSA_TRY(readLightAndLook({source, "light", "light", light}, {source, "look", "look", look}, scene));
-    SEROSA_TRY(readDeformation(source, top, scene));
+    SEROSA_TRY(readDeformations(source, top, folder, scene));
     SEROSA_ASSIGN(const toml::table* outputTable, top.table("output"));
     const SceneTable output(source, "output", "output", outputTable);
     SEROSA_TRY(readOutput(output, scene));

@@ -1,50 +1,144 @@
 // See sim/scene_reader_deformation.h.
 #include "sim/scene_reader_deformation.h"
 
-#include <initializer_list>
+#include "sim/scene_reader_organ.h"
+
+#include <algorithm>
+#include <string>
 
 namespace serosa::sim {
 
 namespace {
 
-/// Lengths that a kind needs: keys of the table.
-std::initializer_list<const char*> neededBy(DeformationKind kind) {
-    static const std::initializer_list<const char*> kBend = {"angle", "extent"}, kTwist = {"angle"},
-                                                    kPull = {"amount", "radius"},
-                                                    kWave = {"amount", "extent"},
-                                                    kPeel = {"amount", "radius", "depth", "width"},
-                                                    kCut = {"amount", "extent", "depth"};
+using Kind = DeformationKind;
+
+/// Keys that a kind needs, and those that it knows besides.
+struct KindKeys {
+    std::vector<const char*> needed, known;
+};
+
+KindKeys keysOf(Kind kind) {
     switch (kind) {
-    case DeformationKind::twist:
-        return kTwist;
-    case DeformationKind::bend:
-        return kBend;
-    case DeformationKind::pull:
-        return kPull;
-    case DeformationKind::wave:
-        return kWave;
-    case DeformationKind::peel:
-        return kPeel;
-    default:
-        return kCut;
+    case Kind::twist:
+        return {{"size", "angle"}, {}};
+    case Kind::bend:
+        return {{"size", "angle", "extent"}, {}};
+    case Kind::pull:
+        return {{"size", "amount", "radius"}, {"narrow"}};
+    case Kind::wave:
+        return {{"size", "amount", "extent"}, {}};
+    case Kind::peel:
+        return {{"size", "amount", "radius", "depth", "width"}, {}};
+    case Kind::knife:
+    case Kind::seam:
+        return {{"size", "amount", "extent", "depth"}, {}};
+    case Kind::incision:
+        return {{"size", "amount", "depth", "width", "path"}, {}};
+    case Kind::sphere:
+        return {{"size", "radius"}, {}};
+    case Kind::box:
+        return {{"size", "extent", "depth", "width"}, {}};
+    case Kind::points:
+        return {{"size", "points", "reach"}, {}};
+    case Kind::image:
+    case Kind::texture:
+        return {{"file"}, {}};
     }
+    return {};
 }
 
-} // namespace
+Status checkKind(const SceneTable& table, Kind kind) {
+    const auto [needed, known] = keysOf(kind);
+    for (const char* const key : needed)
+        if (!table.has(key))
+            return table.errorAt(key, std::string("'") + key + "' is missing: this kind needs it");
+    static const char* const kOfKinds[] = {"size",  "angle",  "amount", "radius", "extent", "depth",
+                                           "width", "narrow", "path",   "points", "reach",  "file"};
+    const auto holds = [](const std::vector<const char*>& keys, const char* wanted) {
+        return std::any_of(keys.begin(), keys.end(),
+                           [wanted](const char* key) { return std::string(key) == wanted; });
+    };
+    for (const char* const key : kOfKinds)
+        if (table.has(key) && !holds(needed, key) && !holds(known, key))
+            return table.errorAt(key, "has no effect on a deformation of this kind: remove it");
+    if ((kind == Kind::image || kind == Kind::texture) && table.has("texels"))
+        return table.errorAt("texels", "has no effect on a file, which has its own: remove it");
+    return {};
+}
 
-Status readDeformation(const SceneSource& source, const SceneTable& top, Scene& scene) {
-    SEROSA_ASSIGN(const toml::table* content, top.table("deformation"));
-    if (!content)
-        return {};
-    const SceneTable table(source, "deformation", "deformation", content);
-    SEROSA_TRY(table.checkKeys());
-    Deformation made;
-    SEROSA_TRY(table.readWord("kind", made.kind));
-    made.line = table.lineOf("kind");
-    SEROSA_TRY(table.read("at", made.at));
-    SEROSA_TRY(table.read("size", made.size));
+Status readPath(const SceneSource& source, const SceneTable& table, const std::string& path,
+                Deformation& made) {
+    SEROSA_ASSIGN(const auto places, table.tables("path"));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const SceneTable place(source, "deformation.path", itemPath(path, "path", i), places[i]);
+        SEROSA_TRY(place.checkKeys());
+        glm::dvec2 at(0);
+        SEROSA_TRY(place.read("x", at.x));
+        SEROSA_TRY(place.read("z", at.y));
+        if (!made.path.empty() && glm::distance(at, made.path.back()) < 1e-9)
+            return place.errorAt("x", "is the place before it once more: a path leads on");
+        made.path.push_back(at);
+    }
+    if (made.kind == Kind::incision && made.path.size() < 2)
+        return table.errorAt("path",
+                             "has " + std::to_string(made.path.size()) + " places: take at least two");
+    return {};
+}
+
+Status readPoints(const SceneSource& source, const SceneTable& table, const std::string& path,
+                  Deformation& made) {
+    SEROSA_ASSIGN(const auto points, table.tables("points"));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const SceneTable point(source, "deformation.points", itemPath(path, "points", i), points[i]);
+        SEROSA_TRY(point.checkKeys());
+        auto& [from, to] = made.points.emplace_back();
+        SEROSA_TRY(point.read("from", from));
+        SEROSA_TRY(point.read("to", to));
+    }
+    return {};
+}
+
+Status readKeys(const SceneSource& source, const SceneTable& table, const std::string& path,
+                Deformation& made) {
+    SEROSA_ASSIGN(const auto keys, table.tables("keys"));
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const SceneTable keyTable(source, "deformation.keys", itemPath(path, "keys", i), keys[i]);
+        SEROSA_TRY(keyTable.checkKeys());
+        DeformationKey key;
+        key.at = made.at;
+        SEROSA_TRY(keyTable.read("t", key.time));
+        SEROSA_TRY(keyTable.read("at", key.at));
+        SEROSA_TRY(keyTable.read("turn", key.turn));
+        SEROSA_TRY(keyTable.read("scale", key.scale));
+        if (!made.keys.empty() && key.time <= made.keys.back().time)
+            return keyTable.errorAt("t", "is not after the key before it: times must increase");
+        made.keys.push_back(key);
+    }
+    return {};
+}
+
+Status readAxes(const SceneTable& table, Deformation& made) {
     SEROSA_TRY(table.read("up", made.up));
     SEROSA_TRY(table.read("along", made.along));
+    if (glm::length(made.up) < 1e-9)
+        return table.errorAt("up", "has no length: give a direction, such as [0, 1, 0]");
+    made.up = glm::normalize(made.up);
+    made.along -= made.up * glm::dot(made.up, made.along);
+    if (glm::length(made.along) < 1e-6)
+        return table.errorAt("along", "is along `up`: give a direction across it");
+    made.along = glm::normalize(made.along);
+    return {};
+}
+
+Status readOne(const SceneSource& source, const SceneTable& table, const std::string& path,
+               const std::filesystem::path& folder, Deformation& made) {
+    SEROSA_TRY(table.checkKeys());
+    SEROSA_TRY(table.readWord("kind", made.kind));
+    made.line = table.lineOf("kind");
+    SEROSA_TRY(checkKind(table, made.kind));
+    SEROSA_TRY(table.read("at", made.at));
+    SEROSA_TRY(table.read("size", made.size));
+    SEROSA_TRY(readAxes(table, made));
     double angle = 0;
     SEROSA_TRY(table.read("angle", angle));
     SEROSA_TRY(table.read("amount", made.amount));
@@ -55,22 +149,56 @@ Status readDeformation(const SceneSource& source, const SceneTable& top, Scene& 
     SEROSA_TRY(table.read("narrow", made.narrow));
     SEROSA_TRY(table.read("wound", made.wound));
     SEROSA_TRY(table.read("texels", made.texels));
-    for (const char* const key : neededBy(made.kind))
-        if (!table.has(key))
-            return table.errorAt(key, std::string("'") + key + "' is missing: this kind needs it");
-    if (made.kind == DeformationKind::twist || made.kind == DeformationKind::bend)
+    SEROSA_TRY(table.readWord("format", made.format));
+    if (made.kind == Kind::twist || made.kind == Kind::bend)
         made.amount = angle;
-    if (glm::length(made.up) < 1e-9)
-        return table.errorAt("up", "has no length: give a direction, such as [0, 1, 0]");
-    made.up = glm::normalize(made.up);
-    made.along -= made.up * glm::dot(made.up, made.along);
-    if (glm::length(made.along) < 1e-6)
-        return table.errorAt("along", "is along `up`: give a direction across it");
-    made.along = glm::normalize(made.along);
-    if (scene.look.show != Show::implicit)
-        return table.errorAt("kind", "has no effect: surfaces are drawn; set look.show = \"implicit\"");
-    scene.deformation = made;
+    SEROSA_TRY(readPath(source, table, path, made));
+    SEROSA_TRY(readPoints(source, table, path, made));
+    SEROSA_TRY(table.read("reach", made.reach));
+    std::string file;
+    SEROSA_TRY(table.read("file", file));
+    if (!file.empty())
+        made.file = folder / file;
+    return readKeys(source, table, path, made);
+}
+
+} // namespace
+
+Status readDeformations(const SceneSource& source, const SceneTable& top, const std::filesystem::path& folder,
+                        Scene& scene) {
+    SEROSA_ASSIGN(const auto all, top.tables("deformation"));
+    const Look& look = scene.look;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string path = "deformation[" + std::to_string(i) + "]";
+        const SceneTable table(source, "deformation", path, all[i]);
+        Deformation made;
+        SEROSA_TRY(readOne(source, table, path, folder, made));
+        if (look.show != Show::implicit)
+            return table.errorAt("kind", "has no effect: surfaces are drawn; set look.show = \"implicit\"");
+        scene.deformations.push_back(std::move(made));
+    }
+    SEROSA_ASSIGN(const toml::table* const lookTable, top.table("look"));
+    const SceneTable table(source, "look", "look", lookTable);
+    if (look.stage != Stage::whole && scene.deformations.size() != 1)
+        return table.errorAt("stage", "needs one [deformation], whose box it speaks of");
+    if (look.stage != Stage::whole && look.show != Show::implicit)
+        return table.errorAt("stage", "has no effect: set look.show = \"implicit\"");
     return {};
+}
+
+DeformationKey Deformation::placeAt(double time) const {
+    if (keys.empty())
+        return {time, at, 0, 1};
+    const auto next =
+        std::find_if(keys.begin(), keys.end(), [time](const auto& key) { return key.time > time; });
+    if (next == keys.begin())
+        return keys.front();
+    if (next == keys.end())
+        return keys.back();
+    const DeformationKey &a = *(next - 1), &b = *next;
+    const double share = (time - a.time) / (b.time - a.time);
+    return {time, glm::mix(a.at, b.at, share), glm::mix(a.turn, b.turn, share),
+            glm::mix(a.scale, b.scale, share)};
 }
 
 } // namespace serosa::sim

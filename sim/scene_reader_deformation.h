@@ -4,9 +4,13 @@
 
 #include "sim/scene_table.h"
 
+#include <filesystem>
+
 namespace serosa::sim {
 
-/// `[deformation]`, after `[look]`. Errors: also where nothing is ray-cast, and a kind without what it needs.
-Status readDeformation(const SceneSource& source, const SceneTable& top, Scene& scene);
+/// `[deformation]` or several `[[deformation]]`, after `[look]`. Errors: also where nothing is ray-cast, and
+/// a kind without what it needs, or with what it does not know. \param folder of the scene file
+Status readDeformations(const SceneSource& source, const SceneTable& top, const std::filesystem::path& folder,
+                        Scene& scene);
 
 } // namespace serosa::sim

@@ -24,15 +24,21 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region",
-                                         "organ.fixed", "organ.level",    "tool",
-                                         "body",        "thread",         "cut"};
+    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region", "organ.fixed",
+                                         "organ.level", "tool",           "body",         "thread",
+                                         "cut",         "deformation"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
     if (table == "thread.ends")
         return "`ends` of `[[thread]]`, each `{ organ = ..., at = ... }`";
     if (table == "cut.keys")
         return "`keys` of `[[cut]]`, each `{ t = ..., at = ..., end = ... }`";
+    if (table == "deformation.keys")
+        return "`keys` of `[[deformation]]`, each `{ t = ..., at = ..., turn = ..., scale = ... }`";
+    if (table == "deformation.path")
+        return "`path` of `[[deformation]]`, each `{ x = ..., z = ... }`";
+    if (table == "deformation.points")
+        return "`points` of `[[deformation]]`, each `{ from = ..., to = ... }`";
     if (table == "curve")
         return "`curve` of `[organ.tissue]` and `[[organ.material]]`, each `{ strain = ..., stress = ... }`";
     return repeated.contains(table) ? "`[[" + table + "]]`" : "`[" + table + "]`";

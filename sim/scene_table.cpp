@@ -328,6 +328,8 @@ Result<std::vector<const toml::table*>> SceneTable::tables(const char* key) cons
         : table_ == "tool"
             ? "an array of { t = ..., at = ... }"
             : "tables: write [[" + (table_.empty() ? key : table_ + "." + key) + "]], once for each";
+    if (table_.empty() && std::string(key) == "deformation" && given->is_table()) // one alone
+        return std::vector<const toml::table*>{given->as_table()};
     if (!given->is_array())
         return errorAt(key, std::string("is ") + typeName(*given) + ", expected " + expected);
     for (const toml::node& item : *given->as_array()) {

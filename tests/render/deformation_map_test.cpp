@@ -44,12 +44,20 @@ DeformationMap mapOf(MapKind kind) {
         map.depth = 0.05;
         map.extent = 0.06;
         break;
+    case MapKind::incision:
+        map.amount = 0.005;
+        map.depth = 0.05;
+        map.width = 0.03;
+        map.path = {{-0.03, -0.02}, {0.03, 0.015}}; // inside of a bend D jumps
+        break;
+    default:
+        break;
     }
     return map;
 }
 
 const MapKind kAll[] = {MapKind::twist, MapKind::bend,  MapKind::pull, MapKind::wave,
-                        MapKind::peel,  MapKind::knife, MapKind::seam};
+                        MapKind::peel,  MapKind::knife, MapKind::seam, MapKind::incision};
 
 class Points {
 public:
@@ -163,6 +171,59 @@ TEST(DeformationMap, ACutIsAsWideAsItSays) {
         EXPECT_GT(kept(map, {0.0, map.half.y - 1.01 * map.depth, z}), 0) << "below it";
         EXPECT_NEAR(forward(map, {1e-15, map.half.y, z}).x, 0.008, 1e-12);
     }
+}
+
+// A straight path along z is the knife's cut, but for where tissue gives way; a round one opens along itself.
+TEST(DeformationMap, AnIncisionFollowsItsPath) {
+    DeformationMap knife = mapOf(MapKind::knife), straight = mapOf(MapKind::incision);
+    straight.amount = knife.amount;
+    straight.depth = knife.depth;
+    straight.width = 2 * knife.half.x;
+    straight.path = {{0, -0.03}, {0, 0.03}};
+    Points points(knife);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 p = points.next();
+        if (std::abs(p.z) > 0.03)
+            continue;
+        EXPECT_LT(glm::distance(inverseDisplacement(straight, p), inverseDisplacement(knife, p)), 1e-12);
+        EXPECT_NEAR(kept(straight, p) < 0, kept(knife, p) < 0, 0);
+    }
+    DeformationMap round = straight;
+    round.width = 0.02;
+    round.path.clear();
+    for (int i = 0; i <= 32; ++i) {
+        const double angle = std::numbers::pi * i / 32;
+        round.path.push_back({0.025 * std::cos(angle), 0.025 * std::sin(angle) - 0.01});
+    }
+    ASSERT_EQ(problemOf(round), "");
+    const double on = 0.025 - 0.01; // the middle of the path, on +z
+    EXPECT_NEAR(kept(round, {0, round.half.y, on}), -round.amount, 1e-4);
+    EXPECT_NEAR(kept(round, {0, round.half.y, on + round.amount}), 0, 1e-4);
+    EXPECT_NEAR(forward(round, {0, round.half.y, on + 1e-9}).z, on + round.amount, 1e-4);
+    EXPECT_NEAR(forward(round, {0, round.half.y, on - 1e-9}).z, on - round.amount, 1e-4);
+    round.path.push_back({1, 1});
+    EXPECT_NE(problemOf(round).find("leaves"), std::string::npos);
+}
+
+TEST(DeformationMap, SolidsAreCutAway) {
+    DeformationMap ball;
+    ball.half = {0.05, 0.06, 0.04};
+    ball.kind = MapKind::sphere;
+    ball.radius = 0.03;
+    EXPECT_EQ(inverseDisplacement(ball, {0.01, 0, 0}), glm::dvec3(0));
+    EXPECT_NEAR(kept(ball, {0, 0.05, 0}), 0.02, 1e-15);
+    EXPECT_NEAR(kept(ball, {0, 0.01, 0}), -0.02, 1e-15);
+    DeformationMap box = ball;
+    box.kind = MapKind::box;
+    box.extent = 0.06;
+    box.depth = 0.02;
+    box.width = 0.09; // wider than the box of the map: its z faces are not still
+    EXPECT_NEAR(kept(box, {0, 0.005, 0}), -0.005, 1e-15);
+    EXPECT_NEAR(kept(box, {0.034, 0.013, 0}), 0.005, 1e-15) << "3, 4, 5 from its edge";
+    EXPECT_TRUE(zeroFaces(box).zero[0]);
+    EXPECT_FALSE(zeroFaces(box).zero[4]);
+    box.width = 0;
+    EXPECT_NE(problemOf(box), "");
 }
 
 TEST(DeformationMap, APeelBaresTheGround) {

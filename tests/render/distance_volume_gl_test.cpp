@@ -46,6 +46,15 @@ TEST_F(GlDistanceVolume, IsExactInItsBandAndHasTheRightSignEverywhere) {
         EXPECT_LT(compared.beyond, 1) << name << ": half of a voxel's diagonal, and what flooding misses";
         EXPECT_EQ(compared.wrongSide, 0) << name;
     }
+    // A wide band, as a shell needs it: beyond the narrow band, nearest triangles come from the tree.
+    for (const char* name : {"heart", "dragon"}) {
+        auto mesh = models::makePhantom(name, 12000);
+        ASSERT_TRUE(mesh);
+        const VolumeGrid grid = VolumeGrid::around(mesh->lowest(), mesh->highest(), 32, 6);
+        const Compared compared = compare(*mesh, grid, 8 * grid.step);
+        EXPECT_LT(compared.inBand, 5e-3) << name << ": half floats of up to 8 voxels";
+        EXPECT_EQ(compared.wrongSide, 0) << name;
+    }
     // Few large faces, sharp corners: a box seen from its own corners; and a part of one.
     const sim::TriangleMesh box = test::boxMesh({-1, -2, -1}, {1, 2, 1.5});
     const VolumeGrid whole = VolumeGrid::around({-1, -2, -1}, {1, 2, 1.5}, 33, 5);

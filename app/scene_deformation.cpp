@@ -1,0 +1,192 @@
+// See app/scene_deformation.h.
+#include "app/scene_deformation.h"
+
+#include "app/deformation_file.h"
+#include "render/deformation_chain.h"
+#include "sim/node_depths.h"
+#include "sim/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace serosa::app {
+
+namespace {
+
+render::TexelFormat formatOf(const sim::Deformation& one) {
+    return one.format == sim::TexelWord::bytes  ? render::TexelFormat::unorm8
+           : one.format == sim::TexelWord::half ? render::TexelFormat::half
+                                                : render::TexelFormat::single;
+}
+
+render::DeformationMap mapOf(const sim::Deformation& one) {
+    render::DeformationMap map;
+    map.kind = one.kind;
+    map.half = 0.5 * one.size;
+    map.amount = one.amount;
+    map.radius = one.radius;
+    map.extent = one.extent;
+    map.depth = one.depth;
+    map.width = one.width;
+    map.path = one.path;
+    map.profile = one.narrow ? render::PullProfile::narrow : render::PullProfile::gaussian;
+    return map;
+}
+
+render::TextureMapping mappingOf(const sim::Deformation& one, double time) {
+    const sim::DeformationKey place = one.placeAt(time);
+    const glm::dvec3 across = glm::cross(one.along, one.up);
+    const double c = std::cos(place.turn), s = std::sin(place.turn);
+    const glm::dvec3 x = c * one.along - s * across, z = s * one.along + c * across;
+    render::TextureMapping mapping;
+    mapping.objectFromLocal = {glm::dvec4(place.scale * x, 0), glm::dvec4(place.scale * one.up, 0),
+                               glm::dvec4(place.scale * z, 0), glm::dvec4(place.at, 1)};
+    mapping.cylinderRadius = one.wound;
+    return mapping;
+}
+
+std::vector<double> timesOf(const sim::Deformation& one) {
+    std::vector<double> times;
+    for (const sim::DeformationKey& key : one.keys)
+        times.push_back(key.time);
+    return times.empty() ? std::vector<double>{0} : times;
+}
+
+std::string residualNote(const render::InversionResidual& residual, const std::filesystem::path& file) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "deformation: %s was inverted with a residual of %.3g mm at most, %.3g mm in the median; "
+                  "%zu texels are off by more than a hundredth of one",
+                  file.filename().string().c_str(), 1e3 * residual.largest, 1e3 * residual.median,
+                  residual.unresolved);
+    return text;
+}
+
+} // namespace
+
+Error SceneDeformation::errorOf(std::size_t i, const std::string& message) const {
+    return Error{scene_.file.string() + ":" + std::to_string(scene_.deformations[i].line) +
+                 ": deformation: " + message};
+}
+
+Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deformation& one) {
+    const render::TexelFormat format = formatOf(one);
+    if (one.kind == sim::DeformationKind::texture)
+        return readDeformationTexture(one.file, format);
+    if (one.kind == sim::DeformationKind::image) {
+        SEROSA_ASSIGN(render::InvertedDisplacement inverted, readForwardDisplacement(one.file, format));
+        notes_.push_back(residualNote(inverted.residual, one.file));
+        return std::move(inverted.texture);
+    }
+    if (one.kind == sim::DeformationKind::points) {
+        std::vector<render::ControlPoint> points;
+        for (const auto& [from, to] : one.points)
+            points.push_back({from, to});
+        return render::interpolateControlPoints(points, one.texels, 0.5 * one.size, one.reach, format);
+    }
+    return render::DeformationTexture::bake(mapOf(one), one.texels, format);
+}
+
+Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
+    SceneDeformation made;
+    made.scene_ = scene;
+    made.met_.assign(scene.deformations.size(), false);
+    for (std::size_t i = 0; i < scene.deformations.size(); ++i) {
+        Result<render::DeformationTexture> texture = made.textureOf(scene.deformations[i]);
+        if (!texture.ok())
+            return made.errorOf(i, texture.error().message);
+        if (const double folded = render::foldedShare(*texture); folded > 0) {
+            char text[120];
+            std::snprintf(text, sizeof text,
+                          "deformation: %s folds in %.2g%% of its box: of two places at rest one is shown",
+                          render::nameOf(scene.deformations[i].kind), 100 * folded);
+            made.notes_.push_back(text);
+        }
+        made.textures_.push_back(std::move(*texture));
+    }
+    return made;
+}
+
+render::Warp SceneDeformation::warpOf(std::size_t i, double time) const {
+    return {&textures_[i], mappingOf(scene_.deformations[i], time)};
+}
+
+Status SceneDeformation::check(const sim::TriangleMesh& metres) {
+    const sim::TriangleTree tree(metres.positions, metres.faces);
+    const glm::dvec3 lowest = metres.lowest(), highest = metres.highest();
+    const auto inside = [&](const glm::dvec3& p) {
+        return glm::all(glm::greaterThan(p, lowest)) && glm::all(glm::lessThan(p, highest)) &&
+               sim::isInside(tree, p, 2 * glm::distance(lowest, highest));
+    };
+    for (std::size_t i = 0; i < textures_.size(); ++i)
+        for (const double time : timesOf(scene_.deformations[i])) {
+            const render::Warp warp = warpOf(i, time);
+            const auto faces = render::examineFaces(warp, inside);
+            if (const std::string torn = render::tornFaces(faces); !torn.empty())
+                return errorOf(i,
+                               "the organ crosses a face of its box on which the map does not vanish, and is "
+                               "torn there: " +
+                                   torn + ": enlarge the box, or move it until these faces lie outside");
+            const auto [low, high] = render::StageBox::of(warp, faces, 0).bounds();
+            met_[i] =
+                met_[i] || (glm::all(glm::lessThan(low, highest)) && glm::all(glm::lessThan(lowest, high)));
+        }
+    return {};
+}
+
+Status SceneDeformation::checkMet() const {
+    for (std::size_t i = 0; i < met_.size(); ++i)
+        if (!met_[i])
+            return errorOf(i, "has no effect: its box lies outside of every organ: look at `at` and `size`");
+    return {};
+}
+
+Result<render::Warp> SceneDeformation::at(double time) {
+    if (textures_.size() == 1)
+        return warpOf(0, time);
+    const bool stays = !moves();
+    if (!chain_ || (!stays && time != chainTime_)) {
+        const sim::Deformation& first = scene_.deformations.front();
+        bool together = true;
+        std::vector<render::Warp> warps;
+        for (std::size_t i = 0; i < textures_.size(); ++i) {
+            warps.push_back(warpOf(i, time));
+            together = together && textures_[i].size() == textures_[0].size() &&
+                       textures_[i].half() == textures_[0].half() &&
+                       warps[i].mapping.objectFromLocal == warps[0].mapping.objectFromLocal &&
+                       warps[i].mapping.cylinderRadius == warps[0].mapping.cylinderRadius;
+        }
+        chainMapping_ = warps[0].mapping;
+        if (together) {
+            render::DeformationTexture sum = textures_[0];
+            for (std::size_t i = 1; i < textures_.size(); ++i) {
+                Result<render::DeformationTexture> more = render::DeformationTexture::sum(sum, textures_[i]);
+                if (!more.ok())
+                    return errorOf(i, more.error().message);
+                sum = std::move(*more);
+            }
+            chain_ = std::move(sum);
+        } else {
+            Result<render::ChainedWarp> chained = render::chain(warps, formatOf(first));
+            if (!chained.ok())
+                return errorOf(0, chained.error().message);
+            chain_ = std::move(chained->texture);
+            chainMapping_ = chained->mapping;
+        }
+        chainTime_ = time;
+    }
+    return render::Warp{&*chain_, chainMapping_};
+}
+
+bool SceneDeformation::moves() const {
+    return std::any_of(scene_.deformations.begin(), scene_.deformations.end(),
+                       [](const sim::Deformation& one) { return one.keys.size() > 1; });
+}
+
+render::StageBox SceneDeformation::stageBox(const render::Warp& warp, double seam) const {
+    const auto nowhere = [](const glm::dvec3&) { return false; };
+    return render::StageBox::of(warp, render::examineFaces(warp, nowhere), seam);
+}
+
+} // namespace serosa::app

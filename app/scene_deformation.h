@@ -1,0 +1,54 @@
+#pragma once
+// A scene's deformations as what the deformation shader draws with: one texture and where it lies, at each
+// time (docs/methods/raycast.md).
+//
+// Several of them are one: their sum where they share box and place, else one after the other, the first next
+// to the organ at rest, sampled anew on a box around all of theirs (render/deformation_chain.h).
+
+#include "render/deformation_sources.h"
+#include "render/stage_box.h"
+#include "sim/scene.h"
+#include "sim/triangle_mesh.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace serosa::app {
+
+class SceneDeformation {
+public:
+    /// Errors, with file and line: a map that folds or does not fit its box, of files. \param scene with at
+    /// least one deformation
+    static Result<SceneDeformation> create(const sim::Scene& scene);
+
+    /// Says what is wrong with it on this organ, m, at all times that a key names. Errors: an organ that
+    /// crosses a face of a box on which the map does not vanish; a box that meets none of the organs.
+    Status check(const sim::TriangleMesh& metres);
+    /// After check() of all organs.
+    Status checkMet() const;
+
+    /// The warp at a time; it points into this, until the next call.
+    Result<render::Warp> at(double time);
+    /// Does it go anywhere?
+    bool moves() const;
+    /// The box of a scene that is drawn in two stages. \param seam m
+    render::StageBox stageBox(const render::Warp& warp, double seam) const;
+    /// What a user should know of what was made.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    Result<render::DeformationTexture> textureOf(const sim::Deformation& one);
+    render::Warp warpOf(std::size_t i, double time) const;
+    Error errorOf(std::size_t i, const std::string& message) const;
+
+    sim::Scene scene_;
+    std::vector<render::DeformationTexture> textures_; // one a deformation
+    std::vector<bool> met_;                            // an organ lies in its box
+    std::optional<render::DeformationTexture> chain_;
+    render::TextureMapping chainMapping_;
+    double chainTime_ = -1;
+    std::vector<std::string> notes_;
+};
+
+} // namespace serosa::app
