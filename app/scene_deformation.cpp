@@ -96,7 +96,9 @@ Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
         Result<render::DeformationTexture> texture = made.textureOf(scene.deformations[i]);
         if (!texture.ok())
             return made.errorOf(i, texture.error().message);
-        if (const double folded = render::foldedShare(*texture); folded > 0) {
+        const bool closed =
+            scene.deformations[i].kind < sim::DeformationKind::points; // refused where they fold
+        if (const double folded = closed ? 0 : render::foldedShare(*texture); folded > 0) {
             char text[120];
             std::snprintf(text, sizeof text,
                           "deformation: %s folds in %.2g%% of its box: of two places at rest one is shown",

@@ -170,6 +170,11 @@ double groundOf(const DeformationMap& map) {
     return -map.half.y + map.depth;
 }
 
+/// How thick the layer is that rolls off: what lies higher would pass the roll's axis.
+double layerOf(const DeformationMap& map) {
+    return std::min(2 * map.half.y - map.depth, 0.95 * map.radius);
+}
+
 template <class T>
 struct Unrolled {
     Point<T> rest;
@@ -203,7 +208,7 @@ Unrolled<T> unroll(const DeformationMap& map, const Point<T>& shown) {
 template <class T>
 T insideLayer(const DeformationMap& map, const Point<T>& rest) {
     using std::abs;
-    const T low = rest.y - groundOf(map), high = map.half.y - rest.y;
+    const T low = rest.y - groundOf(map), high = layerOf(map) - low;
     const T side = 0.5 * map.width - abs(rest.z), end = map.half.x - rest.x;
     T least = low < side ? low : side;
     least = end < least ? end : least;
@@ -349,7 +354,7 @@ std::string problemOf(const DeformationMap& map) {
     case MapKind::peel:
         if (!(map.depth > 0 && map.depth < tall && map.width > 0))
             return "its depth must lie within the box, and its width be more than 0";
-        return map.radius > tall - map.depth ? "" : "its radius must be more than the layer's thickness";
+        return map.radius > 0 ? "" : "its radius must be more than 0";
     case MapKind::incision:
         if (!(map.depth > 0 && map.width > 0) || map.path.size() < 2)
             return "its depth and its width must be more than 0, and its path have two places";

@@ -16,6 +16,7 @@
 //   wave   y = y' - amount sin(2 pi x' / extent) w(x', z') s(y').
 //   peel   the layer above y = -half.y + depth, where |z| < width/2 and x > amount (the line to which it is
 //          peeled), rolls off its ground upwards on a cylinder of `radius`, by 1.25 pi, and runs straight on.
+//          The layer is at most 0.95 radius thick; above it the box has room for the roll.
 //          The same as Barr's bend; the mask tells the flap, the bared ground and the empty place of the
 //          layer apart.
 //   knife  opens a cut in the plane x = 0 from the top down to `depth`, of length `extent` along z, by

@@ -249,7 +249,7 @@ TEST(DeformationMap, WhatFoldsIsSaid) {
     map.amount = 0.06;
     EXPECT_NE(problemOf(map), "");
     map = mapOf(MapKind::peel);
-    map.radius = 0.001;
+    map.radius = 0;
     EXPECT_NE(problemOf(map), "");
     EXPECT_EQ(parseMapKind("peel"), MapKind::peel);
     EXPECT_FALSE(parseMapKind("pe"));
