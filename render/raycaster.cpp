@@ -1,9 +1,13 @@
 // See render/raycaster.h.
 #include "render/raycaster.h"
 
+#include "render/raycast_skip.h"
+
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <string_view>
 
 namespace serosa::render {
 
@@ -55,6 +59,7 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     scale_ = texture.scale() * (bytes ? 255.0 / 127 : 1);
     bias_ = bytes ? 128.0 / 255 : 0;
     half_ = glm::vec3(texture.half());
+    setSkip(texture);
     // Of the deformed part: no further out than the longest displacement, and within the box. A box that is
     // wound or turned: its corners and what lies between them, sampled.
     constexpr int kSamples = 16;
@@ -76,12 +81,32 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     highest_ = glm::max(highest_, glm::min(high, highest_ + most)) + grid.step;
 }
 
+void Raycaster::setSkip(const DeformationTexture& texture) {
+    // A picture may move the box: what belongs to the texture alone is kept.
+    const std::vector<std::uint8_t>& stored = texture.stored();
+    const std::string_view bytes(reinterpret_cast<const char*>(stored.data()), stored.size());
+    std::size_t made = std::hash<std::string_view>()(bytes);
+    for (const double also : {texture.scale(), texture.half().x, texture.half().y, texture.half().z,
+                              mapping_->cylinderRadius, double(texture.size().x), double(texture.size().y)})
+        made = 31 * made + std::hash<double>()(also);
+    if (skipTexture_ && made == skipOf_)
+        return;
+    const RaycastSkip skip = RaycastSkip::of(texture, mapping_->cylinderRadius);
+    skipTexture_ = gpu::Texture3D("ways to go on", GL_RG16F, texture.size());
+    skipTexture_.upload(GL_RG, GL_FLOAT, skip.texels.data());
+    skipReach_ = skip.reach;
+    maskSlope_ = skip.maskSlope;
+    skipOf_ = made;
+}
+
 Result<gpu::Program*> Raycaster::program(const Variant& variant) {
     const auto found = programs_.find(variant);
     if (found != programs_.end())
         return &found->second;
     std::vector<gpu::ShaderDefine> defines = {{"RAYCAST_SOLID", std::to_string(int(variant.solid))},
                                               {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
+    if (variant.skip)
+        defines.push_back({"RAYCAST_SKIP", std::to_string(variant.skip)});
     if (variant.lattice)
         defines.push_back({"RAYCAST_LATTICE", "1"});
     if (variant.warped)
@@ -95,7 +120,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, lattice_ != nullptr, mapping_.has_value(), probe}));
+                  program({look.solid, look.search, int(look.skipField) + 2 * int(look.skipCut),
+                           lattice_ != nullptr, mapping_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -119,7 +145,14 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         program.set("u_localFromObject", glm::mat4(glm::inverse(objectFromLocal)));
         program.set("u_cylinder", float(mapping_->cylinderRadius)).set("u_half", half_);
         program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
-        program.texture("t_displacement", displacement_);
+        program.texture("t_displacement", displacement_).texture("t_skip", skipTexture_);
+        glm::vec3 inner = half_; // a wound box meets itself
+        if (mapping_->cylinderRadius > 0)
+            inner.z = std::min(inner.z, float(std::numbers::pi * mapping_->cylinderRadius));
+        const glm::dmat3 affine(objectFromLocal);
+        program.set("u_skipHalf", inner).set("u_skipReach", float(skipReach_));
+        program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(leastStretch(affine)));
+        program.set("u_shareStretch", float(largestStretch(affine) / leastStretch(affine)));
     }
     if (probe) {
         program.set("u_eye", frame.eye);

@@ -36,6 +36,8 @@ struct RaycastLook {
     double step = 0.5;        // between samples, voxels of the distance field
     double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
+    bool skipField = true;    // empty space, by the distance field
+    bool skipCut = true;      // what a map's mask cuts away, by the distance to what it keeps
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
 
@@ -74,18 +76,22 @@ private:
     struct Variant {
         Solid solid;
         Search search;
+        int skip; // 1 by the field, 2 by the cut
         bool lattice, warped, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
     Result<gpu::Program*> program(const Variant& variant);
+    void setSkip(const DeformationTexture& texture);
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
     const DistanceVolume* volume_ = nullptr;
     const LatticeWarp* lattice_ = nullptr;
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
-    gpu::Texture3D displacement_;
+    gpu::Texture3D displacement_, skipTexture_;
+    double skipReach_ = 0, maskSlope_ = 1; // m, 1/m
+    std::size_t skipOf_ = 0;               // what skipTexture_ was made from
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m

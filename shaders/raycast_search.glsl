@@ -11,21 +11,25 @@ uniform float u_step;      // between samples, object space
 uniform float u_threshold; // SRS_SEARCH_THRESHOLD: nearer to the surface than this (object space) steps are short
 uniform float u_thickness; // of a shell, object space
 uniform float u_boxSize;   // longer than any way through the box: the distance where there is no tissue
+#include "raycast_skip.glsl"
 
 struct Place {
-    float distance, body, mask; // signed distance of the surface; the same of the body that is drawn
-    vec3 rest;
+    float distance, body, free; // signed distance of the surface; of the body that is drawn; least way to it
+    Warped at;
 };
 
 Place placeAt(vec3 shown) {
     Warped warped = warp(shown);
-    float f = field(warped.rest), body = f;
+    vec2 parts = fieldParts(warped.rest);
+    float f = parts.x + parts.y, body = f;
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
     body = max(f, -u_thickness - f);
 #endif
+    // Beyond a volume: no nearer than its edge, and what is in it lies across.
+    float free = parts.y <= 0.0 ? abs(body) : parts.x > 0.0 ? length(parts) : 0.0;
     if (!warped.covered)
         f = body = u_boxSize;
-    return Place(f, body, warped.mask, warped.rest);
+    return Place(f, body, free, warped);
 }
 
 struct Hit {
@@ -36,7 +40,7 @@ struct Hit {
 };
 
 /// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005).
-float stepFrom(vec3 shown, vec3 along, float body) {
+float searchStep(vec3 shown, vec3 along, float body) {
 #if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
     return u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
 #elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
@@ -47,19 +51,25 @@ float stepFrom(vec3 shown, vec3 along, float body) {
 }
 
 bool matter(Place place) {
-    return place.body < 0.0 && place.mask >= 0.5;
+    return place.body < 0.0 && place.at.mask >= 0.5;
 }
 
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
     float t = start;
+    vec2 slab = textureSlab(from, along);
     Place before = placeAt(from + t * along);
     while (t < end && hit.samples < SRS_MOST_SAMPLES) {
-        float next = min(t + stepFrom(from + t * along, along, before.body), end);
+        Skip skip = skipFrom(before.at, before.free, t, slab);
+        float by = skip.way;
+        if (by < SRS_MOST_STEP * u_step)
+            by = max(by, searchStep(from + t * along, along, before.body));
+        float next = min(t + by, end);
         Place now = placeAt(from + next * along);
         ++hit.samples;
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-        bool crossed = (before.body < 0.0) != (now.body < 0.0);
+        // What is cut away is not looked at.
+        bool crossed = (before.body < 0.0) != (now.body < 0.0) && !(skip.cut && by <= skip.way);
 #else
         bool crossed = !matter(before) && matter(now);
 #endif
@@ -83,7 +93,7 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
                 }
             }
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-            bool meant = in_.mask >= 0.5;
+            bool meant = in_.at.mask >= 0.5;
             hit.back = now.body >= 0.0;
 #else
             bool meant = true;
@@ -95,7 +105,7 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
             if (meant) {
                 hit.any = true;
                 hit.t = high;
-                hit.rest = in_.rest;
+                hit.rest = in_.at.rest;
                 return hit;
             }
         }

@@ -57,6 +57,8 @@ struct Warped {
     vec3 rest;    // p
     float mask;   // A
     bool covered; // there can be tissue
+    bool inside;  // of the texture's box
+    vec3 q;       // in texture space
 };
 
 /// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
@@ -71,10 +73,12 @@ Warped warp(vec3 shown) {
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), d.w, tissue);
+        return Warped(toObject(q + d.xyz), d.w, tissue, true, q);
     }
+    return Warped(shown, 1.0, tissue, false, q);
+#else
+    return Warped(shown, 1.0, tissue, false, shown);
 #endif
-    return Warped(shown, 1.0, tissue);
 }
 
 #ifdef RAYCAST_WARP
@@ -129,12 +133,17 @@ vec3 maskGradient(vec3 shown) {
     return vec3(0.0);
 }
 
-/// Signed distance at rest, object space; beyond the volume at least the way to it.
-float field(vec3 rest) {
+/// Signed distance at rest, object space: x in the volume, y the way to it.
+vec2 fieldParts(vec3 rest) {
     vec3 at = (rest - u_fieldLowest) / u_fieldStep, size = vec3(textureSize(t_field, 0));
     vec3 within = clamp(at, vec3(0.0), size - 1.0);
-    float beyond = distance(at, within);
-    return u_fieldStep * (texture(t_field, (within + 0.5) / size).x + beyond);
+    return u_fieldStep * vec2(texture(t_field, (within + 0.5) / size).x, distance(at, within));
+}
+
+/// Beyond the volume at least the way to it.
+float field(vec3 rest) {
+    vec2 parts = fieldParts(rest);
+    return parts.x + parts.y;
 }
 
 /// Central differences over two voxels: over one, the bends of the trilinear field show as stripes.
