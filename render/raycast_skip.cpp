@@ -12,7 +12,7 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kReach = 8;           // texels of the coarsest axis, in which a bound holds
+constexpr int kReach = 4;           // texels of the coarsest axis, in which a bound holds
 constexpr double kMostBound = 1000; // what a jump has: no skipping
 constexpr double kEverywhere = 1e9; // m2: nothing is kept along this line
 
@@ -165,11 +165,15 @@ RaycastSkip RaycastSkip::of(const DeformationTexture& texture, double cylinderRa
     RaycastSkip made;
     made.reach = kReach * coarsest;
     made.maskSlope = std::max(double(*std::max_element(slopes.begin(), slopes.end())), 1e-6);
+    Grid near = bounds;
     for (int axis = 0; axis < 3; ++axis)
         if (size[axis] > 1) {
             // One more: a filtered value is a mean over texels that lie up to one away.
-            bounds.along(axis, [reach = int(std::ceil(made.reach / step[axis])) +
-                                        1](std::vector<double>& line) { spread(line, reach); });
+            const auto widen = [](int reach) {
+                return [reach](std::vector<double>& line) { spread(line, reach); };
+            };
+            near.along(axis, widen(int(std::ceil(coarsest / step[axis])) + 1));
+            bounds.along(axis, widen(int(std::ceil(made.reach / step[axis])) + 1));
             ways.along(axis, [by = step[axis]](std::vector<double>& line) { nearest(line, by); });
         }
     // A place that is kept lies in a cell that has a kept corner; a filtered distance may be too large by
@@ -177,7 +181,8 @@ RaycastSkip RaycastSkip::of(const DeformationTexture& texture, double cylinderRa
     const double margin = 1.5 * std::sqrt(diagonal2);
     made.texels.resize(count);
     for (std::size_t i = 0; i < count; ++i)
-        made.texels[i] = {bounds.values[i], std::max(std::sqrt(ways.values[i]) - margin, 0.0)};
+        made.texels[i] = {near.values[i], bounds.values[i],
+                          std::max(std::sqrt(ways.values[i]) - margin, 0.0)};
     return made;
 }
 

@@ -8,6 +8,8 @@
 // largest in a corner: the bound is one, not an estimate.
 // By the cut: what is cut away shows nothing until the ray comes to what is kept, by a distance field of the
 // mask in texture space, and near its border by the mask's own slope.
+// Where neither allows more than a step of the search, a bound within a texel keeps samples a step apart at
+// rest (eq. 4 for the direction in which it is shortest), for one fetch instead of a Jacobian's six.
 //
 // Texture space is where both are stored: M carries them over by the least and the largest stretch of its
 // affine part, which may change from picture to picture; a wound box's own stretch is in the bound.
@@ -19,8 +21,9 @@
 namespace serosa::render {
 
 struct RaycastSkip {
-    std::vector<glm::vec2> texels; // of the texture's size: bound on |dp/dp'|; way to what is kept, m
-    double reach = 0;              // m of texture space: the bound holds to here
+    std::vector<glm::vec3> texels; // of the texture's size: bounds on |dp/dp'| within a texel and within
+                                   // reach; way to what is kept, m
+    double reach = 0;              // m of texture space
     double maskSlope = 1;          // 1/m: largest of the mask
 
     /// \param cylinderRadius of the mapping; 0: affine

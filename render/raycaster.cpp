@@ -92,8 +92,8 @@ void Raycaster::setSkip(const DeformationTexture& texture) {
     if (skipTexture_ && made == skipOf_)
         return;
     const RaycastSkip skip = RaycastSkip::of(texture, mapping_->cylinderRadius);
-    skipTexture_ = gpu::Texture3D("ways to go on", GL_RG16F, texture.size());
-    skipTexture_.upload(GL_RG, GL_FLOAT, skip.texels.data());
+    skipTexture_ = gpu::Texture3D("ways to go on", GL_RGBA16F, texture.size());
+    skipTexture_.upload(GL_RGB, GL_FLOAT, skip.texels.data());
     skipReach_ = skip.reach;
     maskSlope_ = skip.maskSlope;
     skipOf_ = made;
@@ -111,6 +111,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_LATTICE", "1"});
     if (variant.warped)
         defines.push_back({"RAYCAST_WARP", "1"});
+    if (variant.wound)
+        defines.push_back({"RAYCAST_WOUND", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -119,9 +121,10 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 }
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
+    const bool wound = mapping_ && mapping_->cylinderRadius > 0;
     SEROSA_ASSIGN(gpu::Program* const made,
                   program({look.solid, look.search, int(look.skipField) + 2 * int(look.skipCut),
-                           lattice_ != nullptr, mapping_.has_value(), probe}));
+                           lattice_ != nullptr, mapping_.has_value(), wound, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -147,7 +150,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
         program.texture("t_displacement", displacement_).texture("t_skip", skipTexture_);
         glm::vec3 inner = half_; // a wound box meets itself
-        if (mapping_->cylinderRadius > 0)
+        if (wound)
             inner.z = std::min(inner.z, float(std::numbers::pi * mapping_->cylinderRadius));
         const glm::dmat3 affine(objectFromLocal);
         program.set("u_skipHalf", inner).set("u_skipReach", float(skipReach_));

@@ -77,7 +77,7 @@ private:
         Solid solid;
         Search search;
         int skip; // 1 by the field, 2 by the cut
-        bool lattice, warped, probe;
+        bool lattice, warped, wound, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;

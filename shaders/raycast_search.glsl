@@ -39,10 +39,14 @@ struct Hit {
     int samples;
 };
 
-/// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005).
-float searchStep(vec3 shown, vec3 along, float body) {
+/// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005). Where space is
+/// skipped a bound on the Jacobian is known: no matter how the ray runs, samples lie no further apart at rest.
+float searchStep(vec3 shown, vec3 along, float body, float stretch) {
 #if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
-    return u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
+#ifndef SKIPS
+    stretch = length(warpJacobian(shown) * along);
+#endif
+    return u_step * clamp(1.0 / max(stretch, 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
 #elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
     return abs(body) < u_threshold ? 0.25 * u_step : u_step;
 #else
@@ -54,63 +58,60 @@ bool matter(Place place) {
     return place.body < 0.0 && place.at.mask >= 0.5;
 }
 
+/// Has the ray met something between two places?
+bool crossed(Place before, Place now) {
+#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+    return (before.body < 0.0) != (now.body < 0.0);
+#else
+    return !matter(before) && matter(now);
+#endif
+}
+
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
     float t = start;
     vec2 slab = textureSlab(from, along);
-    Place before = placeAt(from + t * along);
-    while (t < end && hit.samples < SRS_MOST_SAMPLES) {
-        Skip skip = skipFrom(before.at, before.free, t, slab);
-        float by = skip.way;
-        if (by < SRS_MOST_STEP * u_step)
-            by = max(by, searchStep(from + t * along, along, before.body));
-        float next = min(t + by, end);
-        Place now = placeAt(from + next * along);
-        ++hit.samples;
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-        // What is cut away is not looked at.
-        bool crossed = (before.body < 0.0) != (now.body < 0.0) && !(skip.cut && by <= skip.way);
-#else
-        bool crossed = !matter(before) && matter(now);
-#endif
-        if (crossed) {
-            float low = t, high = next;
-            Place out_ = before, in_ = now;
-            for (int i = 0; i < SRS_BISECTIONS; ++i) {
-                float middle = 0.5 * (low + high);
-                Place at = placeAt(from + middle * along);
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-                bool beyond = (at.body < 0.0) == (now.body < 0.0);
-#else
-                bool beyond = matter(at);
-#endif
-                if (beyond) {
-                    high = middle;
-                    in_ = at;
-                } else {
-                    low = middle;
-                    out_ = at;
-                }
-            }
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-            bool meant = in_.at.mask >= 0.5;
-            hit.back = now.body >= 0.0;
-#else
-            bool meant = true;
-            hit.face = out_.body < 0.0;
-#if RAYCAST_SOLID == SRS_SOLID_SHELL
-            hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
-#endif
-#endif
-            if (meant) {
-                hit.any = true;
-                hit.t = high;
-                hit.rest = in_.at.rest;
-                return hit;
+    Place now = placeAt(from + t * along);
+    // Searching and refining are loops of their own: a software renderer runs through what a branch holds.
+    while (!hit.any && t < end && hit.samples < SRS_MOST_SAMPLES) {
+        Place before = now;
+        float last = t;
+        bool found = false;
+        while (!found && t < end && hit.samples < SRS_MOST_SAMPLES) {
+            before = now;
+            last = t;
+            Skip skip = skipFrom(before.at, before.free, t, slab);
+            float by = max(skip.way, searchStep(from + t * along, along, before.body, skip.stretch));
+            t = min(t + by, end);
+            now = placeAt(from + t * along);
+            ++hit.samples;
+            found = crossed(before, now) && !(skip.cut && by <= skip.way); // what is cut away is not looked at
+        }
+        float low = last, high = t;
+        Place out_ = before, in_ = now;
+        for (int i = 0; found && i < SRS_BISECTIONS; ++i) {
+            float middle = 0.5 * (low + high);
+            Place at = placeAt(from + middle * along);
+            if (crossed(before, at)) {
+                high = middle;
+                in_ = at;
+            } else {
+                low = middle;
+                out_ = at;
             }
         }
-        t = next;
-        before = now;
+#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+        hit.any = found && in_.at.mask >= 0.5;
+        hit.back = now.body >= 0.0;
+#else
+        hit.any = found;
+        hit.face = out_.body < 0.0;
+#if RAYCAST_SOLID == SRS_SOLID_SHELL
+        hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
+#endif
+#endif
+        hit.t = high;
+        hit.rest = in_.at.rest;
     }
     return hit;
 }

@@ -54,8 +54,8 @@ TEST(RaycastSkip, BoundsHold) {
             // A filter as the shader's, for what fits a deformation.
             constexpr double kBounds = 0.05 / 1000, kWays = 0.05;
             std::vector<glm::dvec4> known;
-            for (const glm::vec2& texel : skip.texels)
-                known.emplace_back(kBounds * texel.x, kWays * std::min(texel.y, 1.0F), 0, 1);
+            for (const glm::vec3& texel : skip.texels)
+                known.emplace_back(kBounds * texel.y, kWays * std::min(texel.z, 1.0F), 0, 1);
             const auto filtered =
                 DeformationTexture::create(texture->size(), texture->half(), TexelFormat::single, known);
             ASSERT_TRUE(filtered.ok()) << filtered.error().message;
@@ -152,7 +152,7 @@ TEST_P(GlRaycastSkip, ShowsTheSame) {
     }
     ASSERT_GT(agreement.object, 3000);
     EXPECT_LE(agreement.silhouettes, 4) << "of " << agreement.object;
-    EXPECT_LE(agreement.deep, agreement.both / 1000) << "of " << agreement.both;
+    EXPECT_LE(agreement.deep, agreement.both / 300) << "of " << agreement.both;
 }
 
 INSTANTIATE_TEST_SUITE_P(
