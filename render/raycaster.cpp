@@ -13,6 +13,8 @@ namespace serosa::render {
 
 namespace {
 
+constexpr double kThreshold = 0.04; // of an organ's longest side: CS07 figure 3
+
 GLenum glFormat(TexelFormat format) {
     return format == TexelFormat::unorm8 ? GL_RGBA8 : format == TexelFormat::half ? GL_RGBA16F : GL_RGBA32F;
 }
@@ -30,6 +32,12 @@ RaycastLook raycastLook(const sim::Look& look) {
     made.solid = look.interior == sim::Interior::hollow  ? Solid::hollow
                  : look.interior == sim::Interior::solid ? Solid::solid
                                                          : Solid::shell;
+    made.search = look.search == sim::RaySearch::linear      ? Search::linear
+                  : look.search == sim::RaySearch::threshold ? Search::threshold
+                                                             : Search::jacobian;
+    made.step = look.searchStep;
+    made.threshold = kThreshold * look.fieldSamples;
+    made.skipField = made.skipCut = look.skipEmpty;
     made.thickness = look.shell;
     return made;
 }

@@ -85,7 +85,10 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
             t = min(t + by, end);
             now = placeAt(from + t * along);
             ++hit.samples;
-            found = crossed(before, now) && !(skip.cut && by <= skip.way); // what is cut away is not looked at
+            found = crossed(before, now);
+#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+            found = found && !(skip.cut && by <= skip.way); // what is cut away is not looked at
+#endif
         }
         float low = last, high = t;
         Place out_ = before, in_ = now;

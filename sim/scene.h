@@ -118,11 +118,16 @@ enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 enum class Show { surface, implicit };
 /// What is in it, where it is ray-cast.
 enum class Interior { hollow, solid, shell };
+/// How rays are searched there, and what in.
+enum class RaySearch { linear, threshold, jacobian };
 struct Look {
     Show show = Show::surface;
     Interior interior = Interior::solid;
     double shell = 0.008;  // m: its thickness
     int fieldSamples = 96; // of the distance field, along the organ's longest side
+    RaySearch search = RaySearch::jacobian;
+    double searchStep = 0.5; // voxels of the distance field
+    bool skipEmpty = true;
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn

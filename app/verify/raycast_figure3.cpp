@@ -14,7 +14,7 @@ using render::Search;
 
 constexpr std::size_t kFaces = 245'000; // the paper's
 constexpr double kThreshold = 0.04;     // the paper's: of the ball's width
-constexpr double kStep = 1;             // voxels between samples, at rest
+constexpr double kStep = 2;             // voxels between samples, at rest
 constexpr int kSamples = 96;
 constexpr double kBand = 0.001; // m
 
@@ -22,9 +22,9 @@ render::DeformationMap narrowPull(double radius) {
     render::DeformationMap map;
     map.kind = render::MapKind::pull;
     map.profile = render::PullProfile::narrow;
-    map.half = glm::dvec3(0.7, 1.3, 0.7) * radius;
+    map.half = glm::dvec3(0.4, 1.3, 0.4) * radius;
     map.amount = 1.2 * radius;
-    map.radius = 0.22 * radius;
+    map.radius = 0.1 * radius;
     return map;
 }
 

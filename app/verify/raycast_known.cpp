@@ -84,7 +84,7 @@ Status checkAtRest(const RaycastModel& ball, int size, CheckList& checks) {
         std::sort(turned.begin(), turned.end());
         const std::string of =
             std::string("ball at rest, ") + (view.orthographic() ? "orthographic: " : "perspective: ");
-        checks.atLeast(of + "pixels on it", hits, 0.2 * size * size, "1");
+        checks.atLeast(of + "pixels on it", hits, 0.1 * size * size, "1");
         checks.equalAbs(of + "silhouette, pixels that differ", wrong, 0, 0, "1");
         checks.atMost(of + "depth, largest error", off / ball.field.grid().step, 0.25, "voxels");
         checks.atMost(of + "normals, median", turned[turned.size() / 2], 0.5, "deg");
@@ -114,7 +114,7 @@ Status checkSilhouette(const RaycastModel& ball, const std::string& name, const 
             wrong += (probes[i].kind == RaycastProbe::surface) != (near < 0);
         }
     }
-    checks.atLeast(name + " ball: pixels on it", inside, 0.2 * size * size, "1");
+    checks.atLeast(name + " ball: pixels on it", inside, 0.1 * size * size, "1");
     checks.equalAbs(name + " ball: silhouette, pixels that differ", wrong, 0, 0, "1");
     return {};
 }
