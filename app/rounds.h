@@ -25,6 +25,8 @@ public:
 
     /// Milliseconds a repeat, over the rounds. The case must exist and be measured.
     Spread milliseconds(const std::string& name) const;
+    /// The same round by round.
+    const std::vector<double>& all(const std::string& name) const { return find(name).milliseconds; }
     /// Of two cases, formed within each round.
     Spread ratio(const std::string& numerator, const std::string& denominator) const;
 

@@ -4,6 +4,8 @@
 #include "gpu/gl.h"
 #include "models/phantom.h"
 
+#include <map>
+
 namespace serosa::bench {
 
 Block::Block(sim::Lattice made, double young, double timeStep) : lattice(std::move(made)) {
@@ -52,6 +54,29 @@ void addSolver(Rounds& rounds, const std::string& name, sim::Solver& solver) {
 
 Result<std::unique_ptr<sim::Solver>> fragmentSolver(const Block& block, const sim::FragmentOptions& options) {
     return sim::makeFragmentSolver(block.setup, options);
+}
+
+sim::TriangleMesh refined(sim::TriangleMesh mesh, std::size_t least) {
+    while (mesh.faces.size() < least) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+        std::vector<glm::uvec3> faces;
+        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+            const auto [found, fresh] =
+                middles.try_emplace(std::minmax(a, b), std::uint32_t(mesh.positions.size()));
+            if (fresh) {
+                mesh.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+                if (!mesh.colours.empty())
+                    mesh.colours.push_back(mesh.colours[a]);
+            }
+            return found->second;
+        };
+        for (const glm::uvec3& f : mesh.faces) {
+            const std::uint32_t a = middle(f.x, f.y), b = middle(f.y, f.z), c = middle(f.z, f.x);
+            faces.insert(faces.end(), {{f.x, a, c}, {f.y, b, a}, {f.z, c, b}, {a, b, c}});
+        }
+        mesh.faces = std::move(faces);
+    }
+    return mesh;
 }
 
 } // namespace serosa::bench

@@ -29,6 +29,9 @@ sim::Lattice denseLattice(int nodesAlongAnEdge);
 /// The heart phantom's surface in metres (made once).
 Result<const sim::TriangleMesh*> heartSurface();
 
+/// Each face in four, until there are enough.
+sim::TriangleMesh refined(sim::TriangleMesh mesh, std::size_t least);
+
 /// The heart phantom in about so many nodes.
 Result<sim::Lattice> heartLattice(std::size_t nodes);
 
@@ -52,6 +55,8 @@ Status benchMapping(const Options& options, Report& report);
 /// Skipping hidden clusters and levels of detail of a surface of a million faces; textures, shadows,
 /// occlusion (bench/look_cases.cpp).
 Status benchLook(const Options& options, Report& report);
+/// Table 1 and figure 7 of CS07, what searching and warping cost, memory of maps (bench/raycast_cases.cpp).
+Status benchRaycast(const Options& options, Report& report);
 /// What fills, normals, damping, the volumetric term, materials, cuts and tools cost as shares of a step, and
 /// what a stroke takes (bench/tissue_cases.cpp).
 Status benchTissue(const Options& options, Report& report);

@@ -10,7 +10,6 @@
 #include "sim/state_textures.h"
 
 #include <chrono>
-#include <map>
 
 namespace serosa::bench {
 
@@ -19,30 +18,6 @@ namespace {
 constexpr int kPictureSize = 1024;        // pixels
 constexpr std::size_t kFaces = 1'000'000; // at least
 constexpr std::size_t kNodes = 20'000;
-
-/// Each face in four, until there are enough.
-sim::TriangleMesh refined(sim::TriangleMesh mesh) {
-    while (mesh.faces.size() < kFaces) {
-        std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        std::vector<glm::uvec3> faces;
-        const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-            const auto [found, fresh] =
-                middles.try_emplace(std::minmax(a, b), std::uint32_t(mesh.positions.size()));
-            if (fresh) {
-                mesh.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
-                if (!mesh.colours.empty())
-                    mesh.colours.push_back(mesh.colours[a]);
-            }
-            return found->second;
-        };
-        for (const glm::uvec3& f : mesh.faces) {
-            const std::uint32_t a = middle(f.x, f.y), b = middle(f.y, f.z), c = middle(f.z, f.x);
-            faces.insert(faces.end(), {{f.x, a, c}, {f.y, b, a}, {f.z, c, b}, {a, b, c}});
-        }
-        mesh.faces = std::move(faces);
-    }
-    return mesh;
-}
 
 double secondsOf(const std::function<void()>& what) {
     const auto start = std::chrono::steady_clock::now();
@@ -54,7 +29,7 @@ double secondsOf(const std::function<void()>& what) {
 
 Status benchLook(const Options& options, Report& report) {
     SEROSA_ASSIGN(const sim::TriangleMesh* heart, heartSurface());
-    const sim::TriangleMesh fine = refined(*heart);
+    const sim::TriangleMesh fine = refined(*heart, kFaces);
     sim::LatticeRequest request;
     request.nodes = kNodes;
     SEROSA_ASSIGN(const sim::Lattice lattice, sim::buildLattice(*heart, request));

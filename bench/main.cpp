@@ -20,7 +20,7 @@ constexpr Group kGroups[] = {
     {"tissue", benchTissue},     {"contact", benchContact}, {"realtime", benchRealtime},
     {"mapping", benchMapping},   {"look", benchLook},       {"lod", benchLod},
     {"growth", benchGrowth},     {"gpu", benchGpu},         {"large", benchLarge},
-    {"implicit", benchImplicit}, {"rivals", benchRivals}};
+    {"implicit", benchImplicit}, {"rivals", benchRivals},   {"raycast", benchRaycast}};
 
 Status runAll(const std::vector<std::string>& groups, const Options& options, const gpu::Context& context,
               Report& report) {

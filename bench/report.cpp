@@ -31,7 +31,10 @@ constexpr Target kTargets[] = {{"fragment_over_cpu_dense20k", false, 4, 2},
                                {"scalar_over_fragment_dense20k", true, 2.5, 4},
                                {"mapping_over_static", false, 2.5, 1.5},
                                {"corrected_over_constant", false, 1.4, 1.1},
-                               {"corrected_over_constant_frame", false, 1.2, 1.03}};
+                               {"corrected_over_constant_frame", false, 1.2, 1.03},
+                               {"raycast_linear_over_adaptive", true, 3.5, 5},
+                               {"raycast_displaced_over_plain", false, 2.5, 1.8},
+                               {"raycast_cuts_over_continuous", false, 1.2, 1.0}};
 
 const Target* targetOf(const std::string& name) {
     for (const Target& target : kTargets)

@@ -1,15 +1,20 @@
 // See render/raycaster.h.
 #include "render/raycaster.h"
 
+#include "render/raycast_skip.h"
+
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <string_view>
 
 namespace serosa::render {
 
 namespace {
 
-constexpr double kBehind = 1; // voxels of the field, where the surface itself is drawn, too
+constexpr double kBehind = 1;       // voxels of the field, where the surface itself is drawn, too
+constexpr double kThreshold = 0.04; // of an organ's longest side: CS07 figure 3
 
 GLenum glFormat(TexelFormat format) {
     return format == TexelFormat::unorm8 ? GL_RGBA8 : format == TexelFormat::half ? GL_RGBA16F : GL_RGBA32F;
@@ -28,6 +33,12 @@ RaycastLook raycastLook(const sim::Look& look) {
     made.solid = look.interior == sim::Interior::hollow  ? Solid::hollow
                  : look.interior == sim::Interior::solid ? Solid::solid
                                                          : Solid::shell;
+    made.search = look.search == sim::RaySearch::linear      ? Search::linear
+                  : look.search == sim::RaySearch::threshold ? Search::threshold
+                                                             : Search::jacobian;
+    made.step = look.searchStep;
+    made.threshold = kThreshold * look.fieldSamples;
+    made.skipField = made.skipCut = look.skipEmpty;
     made.thickness = look.shell;
     made.closes = look.show == sim::Show::both;
     return made;
@@ -59,6 +70,7 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     scale_ = texture.scale() * (bytes ? 255.0 / 127 : 1);
     bias_ = bytes ? 128.0 / 255 : 0;
     half_ = glm::vec3(texture.half());
+    setSkip(texture);
     // Of the deformed part: no further out than the longest displacement, and within the box. A box that is
     // wound or turned: its corners and what lies between them, sampled.
     constexpr int kSamples = 16;
@@ -89,12 +101,32 @@ void Raycaster::setStage(const std::optional<StageBox>& stage) {
     highest_ = glm::min(highest_, high + volume_->grid().step);
 }
 
+void Raycaster::setSkip(const DeformationTexture& texture) {
+    // A picture may move the box: what belongs to the texture alone is kept.
+    const std::vector<std::uint8_t>& stored = texture.stored();
+    const std::string_view bytes(reinterpret_cast<const char*>(stored.data()), stored.size());
+    std::size_t made = std::hash<std::string_view>()(bytes);
+    for (const double also : {texture.scale(), texture.half().x, texture.half().y, texture.half().z,
+                              mapping_->cylinderRadius, double(texture.size().x), double(texture.size().y)})
+        made = 31 * made + std::hash<double>()(also);
+    if (skipTexture_ && made == skipOf_)
+        return;
+    const RaycastSkip skip = RaycastSkip::of(texture, mapping_->cylinderRadius);
+    skipTexture_ = gpu::Texture3D("ways to go on", GL_RGBA16F, texture.size());
+    skipTexture_.upload(GL_RGB, GL_FLOAT, skip.texels.data());
+    skipReach_ = skip.reach;
+    maskSlope_ = skip.maskSlope;
+    skipOf_ = made;
+}
+
 Result<gpu::Program*> Raycaster::program(const Variant& variant) {
     const auto found = programs_.find(variant);
     if (found != programs_.end())
         return &found->second;
     std::vector<gpu::ShaderDefine> defines = {{"RAYCAST_SOLID", std::to_string(int(variant.solid))},
                                               {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
+    if (variant.skip)
+        defines.push_back({"RAYCAST_SKIP", std::to_string(variant.skip)});
     if (variant.lattice)
         defines.push_back({"RAYCAST_LATTICE", "1"});
     if (variant.cut)
@@ -105,6 +137,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_STAGE", "1"});
     if (variant.coloured)
         defines.push_back({"RAYCAST_COLOURED", "1"});
+    if (variant.wound)
+        defines.push_back({"RAYCAST_WOUND", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -113,9 +147,11 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 }
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
+    const bool wound = mapping_ && mapping_->cylinderRadius > 0;
     SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, lattice_ != nullptr, lattice_ && lattice_->isCut(),
-                           mapping_.has_value(), stage_.has_value(), volume_->colours() && !probe, probe}));
+                  program({look.solid, look.search, int(look.skipField) + 2 * int(look.skipCut),
+                           lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
+                           stage_.has_value(), volume_->colours() && !probe, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -140,7 +176,14 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         program.set("u_localFromObject", glm::mat4(glm::inverse(objectFromLocal)));
         program.set("u_cylinder", float(mapping_->cylinderRadius)).set("u_half", half_);
         program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
-        program.texture("t_displacement", displacement_);
+        program.texture("t_displacement", displacement_).texture("t_skip", skipTexture_);
+        glm::vec3 inner = half_; // a wound box meets itself
+        if (wound)
+            inner.z = std::min(inner.z, float(std::numbers::pi * mapping_->cylinderRadius));
+        const glm::dmat3 affine(objectFromLocal);
+        program.set("u_skipHalf", inner).set("u_skipReach", float(skipReach_));
+        program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(leastStretch(affine)));
+        program.set("u_shareStretch", float(largestStretch(affine) / leastStretch(affine)));
     }
     if (stage_) {
         stage_->set(program, origin_, unit_);

@@ -38,6 +38,8 @@ struct RaycastLook {
     double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
     bool closes = false;      // a surface that is drawn beside it: all but faces of cuts lies a little behind
+    bool skipField = true;    // empty space, by the distance field
+    bool skipCut = true;      // what a map's mask cuts away, by the distance to what it keeps
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
 
@@ -79,18 +81,22 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        bool lattice, cut, warped, staged, coloured, probe;
+        int skip; // 1 by the field, 2 by the cut
+        bool lattice, cut, warped, wound, staged, coloured, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
     Result<gpu::Program*> program(const Variant& variant);
+    void setSkip(const DeformationTexture& texture);
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
     const DistanceVolume* volume_ = nullptr;
     const LatticeWarp* lattice_ = nullptr;
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
-    gpu::Texture3D displacement_;
+    gpu::Texture3D displacement_, skipTexture_;
+    double skipReach_ = 0, maskSlope_ = 1; // m, 1/m
+    std::size_t skipOf_ = 0;               // what skipTexture_ was made from
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m

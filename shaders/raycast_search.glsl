@@ -11,22 +11,25 @@ uniform float u_step;      // between samples, object space
 uniform float u_threshold; // SRS_SEARCH_THRESHOLD: nearer to the surface than this (object space) steps are short
 uniform float u_thickness; // of a shell, object space
 uniform float u_boxSize;   // longer than any way through the box: the distance where there is no tissue
+#include "raycast_skip.glsl"
 
 struct Place {
-    float distance, body, mask; // signed distance of the surface; the same of the body that is drawn
-    vec3 rest;
-    float cut; // to the nearest blade's cut, object space
+    float distance, body, free; // signed distance of the surface; of the body that is drawn; least way to it
+    Warped at;
 };
 
 Place placeAt(vec3 shown) {
     Warped warped = warp(shown);
-    float f = field(warped.rest), body = f;
+    vec2 parts = fieldParts(warped.rest);
+    float f = parts.x + parts.y, body = f;
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
     body = max(f, -u_thickness - f);
 #endif
+    // Beyond a volume: no nearer than its edge, and what is in it lies across.
+    float free = parts.y <= 0.0 ? abs(body) : parts.x > 0.0 ? length(parts) : 0.0;
     if (!warped.covered)
         f = body = u_boxSize;
-    return Place(f, body, warped.mask, warped.rest, warped.cut);
+    return Place(f, body, free, warped);
 }
 
 struct Hit {
@@ -36,22 +39,33 @@ struct Hit {
     int samples;
 };
 
-/// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005).
 /// The lip of a blade's cut is a wedge between surface and cut: short steps where both are near, or in the cut and one is.
-float stepFrom(vec3 shown, vec3 along, Place place) {
-    float body = place.body, lip = place.mask < 0.5 ? place.cut : max(abs(body), place.cut);
-    float most = max(0.25 * lip, SRS_LIP_STEP * u_step);
-#if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
-    return min(most, u_step * clamp(1.0 / max(length(warpJacobian(shown) * along), 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP));
-#elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
-    return min(most, abs(body) < u_threshold ? 0.25 * u_step : u_step);
+float mostStep(Place place) {
+#ifdef RAYCAST_CUT
+    float lip = place.at.mask < 0.5 ? place.at.cut : max(abs(place.body), place.at.cut);
+    return max(0.25 * lip, SRS_LIP_STEP * u_step);
 #else
-    return min(most, u_step);
+    return 1e30;
+#endif
+}
+
+/// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005). Where space is
+/// skipped a bound on the Jacobian is known: no matter how the ray runs, samples lie no further apart at rest.
+float searchStep(vec3 shown, vec3 along, float body, float stretch) {
+#if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
+#ifndef SKIPS
+    stretch = length(warpJacobian(shown) * along);
+#endif
+    return u_step * clamp(1.0 / max(stretch, 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
+#elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
+    return abs(body) < u_threshold ? 0.25 * u_step : u_step;
+#else
+    return u_step;
 #endif
 }
 
 bool matter(Place place) {
-    return place.body < 0.0 && place.mask >= 0.5;
+    return place.body < 0.0 && place.at.mask >= 0.5;
 }
 
 /// Is tissue entered far from its surface, although the body's field was not negative before? In an opened cut the field is that
@@ -63,6 +77,7 @@ bool entersInside(Place place) {
     return false;
 #endif
 }
+
 #ifdef RAYCAST_STAGE
 #include "stage_box.glsl"
 
@@ -74,61 +89,67 @@ float stageAt(vec3 shown) {
 }
 #endif
 
+/// Has the ray met something between two places?
+bool crossed(Place before, Place now) {
+#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+    return (before.body < 0.0) != (now.body < 0.0);
+#else
+    return !matter(before) && matter(now);
+#endif
+}
+
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
     float t = start;
-    Place before = placeAt(from + t * along);
-    while (t < end && hit.samples < SRS_MOST_SAMPLES) {
-        float next = min(t + stepFrom(from + t * along, along, before), end);
-        Place now = placeAt(from + next * along);
-        ++hit.samples;
+    vec2 slab = textureSlab(from, along);
+    Place now = placeAt(from + t * along);
+    // Searching and refining are loops of their own: a software renderer runs through what a branch holds.
+    while (!hit.any && t < end && hit.samples < SRS_MOST_SAMPLES) {
+        Place before = now;
+        float last = t;
+        bool found = false;
+        while (!found && t < end && hit.samples < SRS_MOST_SAMPLES) {
+            before = now;
+            last = t;
+            Skip skip = skipFrom(before.at, before.free, t, slab);
+            float by = max(skip.way, min(searchStep(from + t * along, along, before.body, skip.stretch), mostStep(before)));
+            t = min(t + by, end);
+            now = placeAt(from + t * along);
+            ++hit.samples;
+            found = crossed(before, now);
 #if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-        bool crossed = (before.body < 0.0) != (now.body < 0.0);
-#else
-        bool crossed = !matter(before) && matter(now);
+            found = found && !(skip.cut && by <= skip.way); // what is cut away is not looked at
 #endif
 #ifdef RAYCAST_STAGE
-        // What lies beyond the box is the surface pass's.
-        crossed = crossed && stageAt(from + t * along) >= 0.0 && stageAt(from + next * along) >= 0.0;
+            // What lies beyond the box is the surface pass's.
+            found = found && stageAt(from + last * along) >= 0.0 && stageAt(from + t * along) >= 0.0;
 #endif
-        if (crossed) {
-            float low = t, high = next;
-            Place out_ = before, in_ = now;
-            for (int i = 0; i < SRS_BISECTIONS; ++i) {
-                float middle = 0.5 * (low + high);
-                Place at = placeAt(from + middle * along);
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-                bool beyond = (at.body < 0.0) == (now.body < 0.0);
-#else
-                bool beyond = matter(at);
-#endif
-                if (beyond) {
-                    high = middle;
-                    in_ = at;
-                } else {
-                    low = middle;
-                    out_ = at;
-                }
-            }
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
-            bool meant = in_.mask >= 0.5 && !entersInside(in_);
-            hit.back = now.body >= 0.0;
-#else
-            bool meant = true;
-            hit.face = out_.body < 0.0 || entersInside(in_);
-#if RAYCAST_SOLID == SRS_SOLID_SHELL
-            hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
-#endif
-#endif
-            if (meant) {
-                hit.any = true;
-                hit.t = high;
-                hit.rest = in_.rest;
-                return hit;
+        }
+        float low = last, high = t;
+        Place out_ = before, in_ = now;
+        for (int i = 0; found && i < SRS_BISECTIONS; ++i) {
+            float middle = 0.5 * (low + high);
+            Place at = placeAt(from + middle * along);
+            if (crossed(before, at)) {
+                high = middle;
+                in_ = at;
+            } else {
+                low = middle;
+                out_ = at;
             }
         }
-        t = next;
-        before = now;
+#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+        hit.any = found && in_.at.mask >= 0.5 && !entersInside(in_);
+        hit.back = now.body >= 0.0;
+#else
+        hit.any = found;
+        hit.face = out_.body < 0.0 || entersInside(in_);
+#if RAYCAST_SOLID == SRS_SOLID_SHELL
+        hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
+#endif
+#endif
+        hit.t = high;
+        hit.rest = in_.at.rest;
     }
     return hit;
 }

@@ -9,7 +9,9 @@ uniform sampler3D t_displacement; // D / u_scale, A
 uniform float u_scale, u_bias;    // D = u_scale (texel - u_bias)
 uniform vec3 u_half;              // of the box, texture space
 uniform mat4 u_localFromObject, u_objectFromLocal;
-uniform float u_cylinder;         // radius that the box is wound around; 0: it is not
+#ifdef RAYCAST_WOUND
+uniform float u_cylinder;         // radius that the box is wound around
+#endif
 #endif
 uniform sampler3D t_field;        // signed distance, voxels
 uniform vec3 u_fieldLowest;       // middle of its first voxel, object space
@@ -18,28 +20,29 @@ uniform float u_fieldStep;        // of a voxel, object space
 #ifdef RAYCAST_WARP
 vec3 toTexture(vec3 object) {
     vec3 local = (u_localFromObject * vec4(object, 1.0)).xyz;
-    if (u_cylinder <= 0.0)
-        return local;
-    return vec3(length(local.xz) - u_cylinder, local.y, u_cylinder * atan(local.z, local.x));
+#ifdef RAYCAST_WOUND
+    local = vec3(length(local.xz) - u_cylinder, local.y, u_cylinder * atan(local.z, local.x));
+#endif
+    return local;
 }
 
 vec3 toObject(vec3 q) {
     vec3 local = q;
-    if (u_cylinder > 0.0) {
-        float phi = q.z / u_cylinder;
-        local = vec3((q.x + u_cylinder) * cos(phi), q.y, (q.x + u_cylinder) * sin(phi));
-    }
+#ifdef RAYCAST_WOUND
+    float phi = q.z / u_cylinder;
+    local = vec3((q.x + u_cylinder) * cos(phi), q.y, (q.x + u_cylinder) * sin(phi));
+#endif
     return (u_objectFromLocal * vec4(local, 1.0)).xyz;
 }
 
 /// d toObject / d q
 mat3 mappingJacobian(vec3 q) {
     mat3 local = mat3(1.0);
-    if (u_cylinder > 0.0) {
-        float phi = q.z / u_cylinder, share = q.x / u_cylinder + 1.0;
-        local[0] = vec3(cos(phi), 0.0, sin(phi));
-        local[2] = vec3(-share * sin(phi), 0.0, share * cos(phi));
-    }
+#ifdef RAYCAST_WOUND
+    float phi = q.z / u_cylinder, share = q.x / u_cylinder + 1.0;
+    local[0] = vec3(cos(phi), 0.0, sin(phi));
+    local[2] = vec3(-share * sin(phi), 0.0, share * cos(phi));
+#endif
     return mat3(u_objectFromLocal) * local;
 }
 
@@ -58,6 +61,8 @@ struct Warped {
     float mask;   // A
     bool covered; // there can be tissue
     float cut;    // to the nearest blade's cut, object space
+    bool inside;  // of the texture's box
+    vec3 q;       // in texture space
 };
 
 /// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
@@ -75,10 +80,12 @@ Warped warp(vec3 shown) {
     vec3 q = toTexture(shown);
     if (inBox(q)) {
         vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue, cut);
+        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue, cut, true, q);
     }
+    return Warped(shown, kept, tissue, cut, false, q);
+#else
+    return Warped(shown, kept, tissue, cut, false, shown);
 #endif
-    return Warped(shown, kept, tissue, cut);
 }
 
 #ifdef RAYCAST_WARP
@@ -141,12 +148,17 @@ vec3 maskGradient(vec3 shown) {
     return transpose(first) * blade;
 }
 
-/// Signed distance at rest, object space; beyond the volume at least the way to it.
-float field(vec3 rest) {
+/// Signed distance at rest, object space: x in the volume, y the way to it.
+vec2 fieldParts(vec3 rest) {
     vec3 at = (rest - u_fieldLowest) / u_fieldStep, size = vec3(textureSize(t_field, 0));
     vec3 within = clamp(at, vec3(0.0), size - 1.0);
-    float beyond = distance(at, within);
-    return u_fieldStep * (texture(t_field, (within + 0.5) / size).x + beyond);
+    return u_fieldStep * vec2(texture(t_field, (within + 0.5) / size).x, distance(at, within));
+}
+
+/// Beyond the volume at least the way to it.
+float field(vec3 rest) {
+    vec2 parts = fieldParts(rest);
+    return parts.x + parts.y;
 }
 
 /// Central differences over two voxels: over one, the bends of the trilinear field show as stripes.

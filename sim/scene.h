@@ -120,6 +120,8 @@ enum class Show { surface, implicit, both };
 enum class Interior { hollow, solid, shell };
 /// What is drawn of an organ that is ray-cast where its deformation's box is (render/stage_box.h).
 enum class Stage { whole, mesh, box, composite };
+/// How rays are searched there, and what in.
+enum class RaySearch { linear, threshold, jacobian };
 
 struct Look {
     Show show = Show::surface;
@@ -127,6 +129,9 @@ struct Look {
     Interior interior = Interior::solid;
     double shell = 0.008;  // m: its thickness
     int fieldSamples = 96; // of the distance field, along the organ's longest side
+    RaySearch search = RaySearch::jacobian;
+    double searchStep = 0.5; // voxels of the distance field
+    bool skipEmpty = true;
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn

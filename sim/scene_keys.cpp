@@ -377,6 +377,13 @@ std::vector<SceneKey> otherKeys() {
         quantity("look", "shell", Dim::length, kPositive, "\"8 mm\"", "implicit: thickness of a shell"),
         plain("look", "field_samples", Kind::integer, {16, 512}, "96",
               "implicit: samples of the distance field along the organ's longest side"),
+        word("look", "search", {"linear", "threshold", "jacobian"}, "\"jacobian\"",
+             "implicit: how far a ray's samples lie apart: evenly, nearer within 0.04 of the organ's longest "
+             "side of its surface, or evenly at rest"),
+        plain("look", "search_step", Kind::number, {0.05, 8}, "0.5",
+              "implicit: between samples, of a sample of the distance field"),
+        plain("look", "skip_empty", Kind::boolean, kAny, "true",
+              "implicit: skip space in which a ray meets nothing"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw tools, bodies and threads"),

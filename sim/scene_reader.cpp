@@ -119,6 +119,9 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("interior", scene.look.interior));
     SEROSA_TRY(look.read("shell", scene.look.shell));
     SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
+    SEROSA_TRY(look.readWord("search", scene.look.search));
+    SEROSA_TRY(look.read("search_step", scene.look.searchStep));
+    SEROSA_TRY(look.read("skip_empty", scene.look.skipEmpty));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));

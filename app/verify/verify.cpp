@@ -159,6 +159,8 @@ const std::vector<VerifyGroup>& verifyGroups() {
         {"mapping", "the surface mappings against motions whose result is known", true, verifyMapping},
         {"surface", "MS05's figures as numbers, exactness on random surfaces, normals: every mapping", true,
          verifySurface},
+        {"raycast", "the deformation shader against rays cast in double, closed forms, and CS07's figure 3",
+         true, verifyRaycast},
     };
     return groups;
 }

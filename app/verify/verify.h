@@ -88,6 +88,7 @@ Status verifyNodeTree(const VerifyOptions& options, CheckList& checks);  // app/
 Status verifyStability(const VerifyOptions& options, CheckList& checks); // app/verify/stability.cpp
 Status verifyContact(const VerifyOptions& options, CheckList& checks);   // app/verify/contact.cpp
 Status verifyGrasp(const VerifyOptions& options, CheckList& checks);     // app/verify/grasp.cpp
+Status verifyRaycast(const VerifyOptions& options, CheckList& checks);   // app/verify/raycast.cpp
 Status verifyImplicit(const VerifyOptions& options, CheckList& checks);  // app/verify/implicit.cpp
 /// The part of group `implicit` with random organs.
 Status verifyImplicitScenarios(const VerifyOptions& options,

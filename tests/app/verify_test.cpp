@@ -81,7 +81,7 @@ TEST(VerifyGroups, AreThoseThatTheDocumentsName) {
     for (const VerifyGroup& group : verifyGroups())
         names.push_back(group.name);
     EXPECT_EQ(names, (std::vector<std::string>{"solver", "materials", "fem", "cuts", "stability", "implicit",
-                                               "contact", "grasp", "lod", "mapping", "surface"}));
+                                               "contact", "grasp", "lod", "mapping", "surface", "raycast"}));
 }
 
 } // namespace

@@ -1,0 +1,170 @@
+// Empty-space skipping: its bounds are bounds, and pictures with and without it show the same.
+#include "models/phantom.h"
+#include "render/raycast_measures.h"
+#include "render/raycast_skip.h"
+#include "tests/gl_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <utility>
+
+namespace serosa::render {
+namespace {
+
+DeformationMap mapOf(MapKind kind) {
+    DeformationMap map;
+    map.kind = kind;
+    map.half = glm::dvec3(0.055);
+    map.amount = kind == MapKind::twist || kind == MapKind::bend ? 0.9
+                 : kind == MapKind::peel                         ? -0.01
+                 : kind == MapKind::pull                         ? 0.04
+                                                                 : 0.008;
+    map.radius = kind == MapKind::peel ? 0.035 : 0.015;
+    map.extent = kind == MapKind::wave ? 0.04 : 0.07;
+    map.depth = kind == MapKind::peel ? 0.08 : 0.06;
+    map.width = 0.06;
+    return map;
+}
+
+TEST(Stretch, IsThatOfScalesAndTurns) {
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    const glm::dmat3 turn(c, s, 0, -s, c, 0, 0, 0, 1), scale(2, 0, 0, 0, 0.5, 0, 0, 0, 1);
+    EXPECT_NEAR(largestStretch(turn), 1, 1e-12);
+    EXPECT_NEAR(largestStretch(turn * scale), 2, 1e-12);
+    EXPECT_NEAR(leastStretch(scale * turn), 0.5, 1e-12);
+    // A shear by k: the golden one of k = 1 stretches by the golden ratio.
+    EXPECT_NEAR(largestStretch(glm::dmat3(1, 0, 0, 1, 1, 0, 0, 0, 1)), std::numbers::phi, 1e-9);
+}
+
+/// Nothing kept lies within the way that a place says, and no two places within reach move apart by more than
+/// the bound.
+TEST(RaycastSkip, BoundsHold) {
+    std::mt19937 engine(5);
+    const auto number = [&] { return 2.0 * double(engine()) / 4294967296.0 - 1.0; };
+    for (const MapKind kind : {MapKind::twist, MapKind::pull, MapKind::knife, MapKind::peel})
+        for (const double radius : {0.0, 0.08}) {
+            SCOPED_TRACE(std::string(nameOf(kind)) + (radius > 0 ? ", wound" : ""));
+            const auto texture = DeformationTexture::bake(mapOf(kind), {40, 32, 24}, TexelFormat::single);
+            ASSERT_TRUE(texture.ok()) << texture.error().message;
+            const RaycastSkip skip = RaycastSkip::of(*texture, radius);
+            // A filter as the shader's, for what fits a deformation.
+            constexpr double kBounds = 0.05 / 1000, kWays = 0.05;
+            std::vector<glm::dvec4> known;
+            for (const glm::vec3& texel : skip.texels)
+                known.emplace_back(kBounds * texel.y, kWays * std::min(texel.z, 1.0F), 0, 1);
+            const auto filtered =
+                DeformationTexture::create(texture->size(), texture->half(), TexelFormat::single, known);
+            ASSERT_TRUE(filtered.ok()) << filtered.error().message;
+            TextureMapping mapping;
+            mapping.cylinderRadius = radius;
+            const glm::dvec3 half = texture->half();
+            const auto inside = [&](const glm::dvec3& q) {
+                return std::max({std::abs(q.x) - half.x, std::abs(q.y) - half.y, std::abs(q.z) - half.z}) < 0;
+            };
+            int moved = 0, steep = 0, cut = 0;
+            for (int k = 0; k < 4000; ++k) {
+                glm::dvec3 at, way;
+                for (int axis = 0; axis < 3; ++axis) {
+                    at[axis] = half[axis] * number();
+                    way[axis] = number();
+                }
+                way = glm::normalize(way);
+                const glm::dvec4 here = texture->sample(at), read = filtered->sample(at);
+                // A short way along which the bound must hold, as it must at each place within reach.
+                const glm::dvec3 near = at + 0.5 * (number() + 1) * skip.reach * way, by = 1e-5 * way;
+                if (inside(near) && inside(near + by)) {
+                    const auto rest = [&](const glm::dvec3& q) {
+                        return mapping.toObject(q + glm::dvec3(texture->sample(q)));
+                    };
+                    const double share = glm::distance(rest(near + by), rest(near)) /
+                                         glm::distance(mapping.toObject(near + by), mapping.toObject(near)),
+                                 bound = read.x / kBounds;
+                    EXPECT_LE(share, 1.02 * bound);
+                    steep += share > 0.3 * bound;
+                    ++moved;
+                }
+                if (here.w < 0.5) {
+                    ++cut;
+                    const double free = std::max(read.y / kWays, (0.5 - here.w) / skip.maskSlope);
+                    const glm::dvec3 to = at + 0.5 * (number() + 1) * free * way;
+                    EXPECT_TRUE(!inside(to) || texture->sample(to).w < 0.5 + 1e-6);
+                }
+            }
+            EXPECT_GT(moved, 1000);
+            EXPECT_GT(steep, 100) << "a bound that is worth something";
+            EXPECT_EQ(cut > 20, texture->cuts());
+        }
+}
+
+struct Case {
+    const char* name;
+    MapKind kind;
+    Solid solid;
+    Search search;
+    double wound = 0;
+};
+
+class GlRaycastSkip : public test::GlTest, public ::testing::WithParamInterface<Case> {};
+
+TEST_P(GlRaycastSkip, ShowsTheSame) {
+    const Case& tested = GetParam();
+    auto mesh = models::makePhantom("ball", 8000);
+    ASSERT_TRUE(mesh);
+    for (glm::dvec3& p : mesh->positions)
+        p = 0.04 * glm::normalize(p);
+    const auto volume =
+        DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 48, 3), 0.012);
+    ASSERT_TRUE(volume.ok()) << volume.error().message;
+    const auto texture = DeformationTexture::bake(mapOf(tested.kind), glm::ivec3(40), TexelFormat::half);
+    ASSERT_TRUE(texture.ok()) << texture.error().message;
+    Warp warp{&*texture, {}};
+    // Turned, and of other scales along its axes.
+    warp.mapping.objectFromLocal = glm::dmat4(1);
+    warp.mapping.objectFromLocal[0] = 1.1 * glm::dvec4(0.8, 0, 0.6, 0);
+    warp.mapping.objectFromLocal[2] = 0.9 * glm::dvec4(-0.6, 0, 0.8, 0);
+    warp.mapping.objectFromLocal[3] = glm::dvec4(0.002, 0.001, -0.003, 1);
+    warp.mapping.cylinderRadius = tested.wound;
+    const sim::Lattice space = objectSpace(0.004);
+    auto caster = Raycaster::create(space, *volume);
+    ASSERT_TRUE(caster.ok());
+    caster->setWarp(warp);
+    RaycastAgreement agreement;
+    for (const auto& [direction, projection] :
+         {std::pair{glm::dvec3(-0.3, -0.8, -0.6), sim::Projection::perspective},
+          {glm::dvec3(0.6, 0.2, -0.8), sim::Projection::orthographic}}) {
+        const RaycastView view = RaycastView::of(space, 1.3 * mesh->lowest(), 1.3 * mesh->highest(),
+                                                 direction, projection, 128, 96);
+        RaycastLook look;
+        look.solid = tested.solid;
+        look.search = tested.search;
+        look.step = 0.25;
+        look.skipField = look.skipCut = false;
+        const auto reference = caster->probe(view.frame, look, view.width, view.height);
+        ASSERT_TRUE(reference.ok()) << reference.error().message;
+        look.skipField = look.skipCut = true;
+        const auto probes = caster->probe(view.frame, look, view.width, view.height);
+        ASSERT_TRUE(probes.ok()) << probes.error().message;
+        addAgreement(agreement, *probes, *reference, 0.01 * volume->grid().step);
+    }
+    ASSERT_GT(agreement.object, 3000);
+    EXPECT_LE(agreement.silhouettes, 4) << "of " << agreement.object;
+    EXPECT_LE(agreement.deep, agreement.both / 300) << "of " << agreement.both;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Maps, GlRaycastSkip,
+    ::testing::Values(Case{"twistLinear", MapKind::twist, Solid::solid, Search::linear},
+                      Case{"bendJacobian", MapKind::bend, Solid::hollow, Search::jacobian},
+                      Case{"pullThreshold", MapKind::pull, Solid::shell, Search::threshold},
+                      Case{"peelJacobian", MapKind::peel, Solid::solid, Search::jacobian},
+                      Case{"knifeShell", MapKind::knife, Solid::shell, Search::jacobian},
+                      Case{"seamHollow", MapKind::seam, Solid::hollow, Search::jacobian},
+                      Case{"knifeWound", MapKind::knife, Solid::solid, Search::jacobian, 0.03}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+} // namespace
+} // namespace serosa::render
