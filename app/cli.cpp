@@ -152,6 +152,24 @@ void addScene(CLI::App& app, Choice& choice) {
     CLI::App* keys =
         scene->add_subcommand("keys", "Print the reference of all keys of a scene file (Markdown)");
     keys->callback([&choice] { choice.action = [] { return printSceneKeys(std::cout); }; });
+    struct Texture {
+        std::string file, out;
+        std::size_t number = 1;
+        bool force = false;
+    };
+    auto texture = std::make_shared<Texture>();
+    CLI::App* deformation = scene->add_subcommand(
+        "deformation", "Write one of a scene's deformations as a texture, for kind = \"texture\"");
+    deformation->add_option("file", texture->file, "scene file")->required()->type_name("SCENE");
+    deformation->add_option("-o,--out", texture->out, "texture (.nrrd, .mha)")->required()->type_name("FILE");
+    deformation->add_option("--number", texture->number, "which of them, from 1")->type_name("N");
+    deformation->add_flag("--force", texture->force, "replace an existing file");
+    deformation->callback([texture, &choice] {
+        choice.action = [texture] {
+            return writeSceneDeformation(texture->file, texture->number, texture->out, texture->force,
+                                         std::cout);
+        };
+    });
     scene->footer("Examples:\n  serosa scene check heart.toml\n  serosa scene explain heart.toml");
 }
 

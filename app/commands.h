@@ -30,6 +30,12 @@ Result<int> explainSceneFile(const std::filesystem::path& file, std::ostream& ou
 /// `serosa scene keys`: the reference of all keys.
 Result<int> printSceneKeys(std::ostream& out);
 
+/// `serosa scene deformation`: writes one of a scene's deformations as a texture file
+/// (app/deformation_file.h), .nrrd or .mha. An existing file is refused without `force`. \param number of the
+/// deformation, from 1
+Result<int> writeSceneDeformation(const std::filesystem::path& scene, std::size_t number,
+                                  const std::filesystem::path& file, bool force, std::ostream& out);
+
 /// `serosa phantom`: writes a generated organ, in millimetres. An existing file is refused without `force`.
 /// \param faces 0: the phantom's default.
 Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,

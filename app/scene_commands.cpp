@@ -2,10 +2,12 @@
 
 #include "app/commands.h"
 #include "app/contact_notes.h"
+#include "app/deformation_file.h"
 #include "app/material_lines.h"
 #include "app/organ_coupling.h"
 #include "app/organ_setup.h"
 #include "app/pose.h"
+#include "app/scene_deformation.h"
 #include "sim/quantity.h"
 #include "sim/scene_keys.h"
 
@@ -147,6 +149,23 @@ Result<int> checkSceneFile(const std::filesystem::path& file, std::ostream& out)
     }
     for (const std::string& note : sceneNotes(scene, organs))
         out << "note: " << note << "\n";
+    return int(exitOk);
+}
+
+Result<int> writeSceneDeformation(const std::filesystem::path& sceneFile, std::size_t number,
+                                  const std::filesystem::path& file, bool force, std::ostream& out) {
+    SEROSA_ASSIGN(const sim::Scene scene, sim::readScene(sceneFile));
+    const std::size_t count = scene.deformations.size();
+    if (number < 1 || number > count)
+        return Error{sceneFile.string() + ": has " + std::to_string(count) +
+                     " deformations, and none of number " + std::to_string(number)};
+    if (!force && std::filesystem::exists(file))
+        return Error{file.string() + ": exists: name another file, or replace it by --force"};
+    SEROSA_ASSIGN(const SceneDeformation made, SceneDeformation::create(scene));
+    const render::DeformationTexture& texture = made.texture(number - 1);
+    SEROSA_TRY(writeDeformationTexture(texture, file));
+    out << file.string() << ": " << texture.size().x << " x " << texture.size().y << " x " << texture.size().z
+        << " texels, displacement in mm and what is kept\n";
     return int(exitOk);
 }
 

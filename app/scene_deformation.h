@@ -34,6 +34,8 @@ public:
     bool moves() const;
     /// The box of a scene that is drawn in two stages. \param seam m
     render::StageBox stageBox(const render::Warp& warp, double seam) const;
+    /// Of the i-th deformation, as its kind makes it.
+    const render::DeformationTexture& texture(std::size_t i) const { return textures_[i]; }
     /// What a user should know of what was made.
     const std::vector<std::string>& notes() const { return notes_; }
 

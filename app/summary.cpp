@@ -119,7 +119,7 @@ Json stepJson(const sim::StableStep& step, sim::StepMethod method) {
         {"formula_rate2_1_s2", step.formulaRate2},
         {"how",
          std::string("Lanczos iteration on the rest lattice, never below 12 k/m; ") +
-             (implicit ? "bound and margin are those of explicit steps; one implicit step a frame is taken"
+             (implicit ? "bound and margin are those of explicit steps; implicit steps are taken"
                        : "explicit step below the bound, damping included")}};
 }
 

@@ -461,7 +461,7 @@ std::vector<SceneKey> deformationKeys() {
         quantity("deformation", "reach", Dim::length, kPositive, "", "points: how far each of them counts"),
         plain("deformation", "file", Kind::text, kAny, "",
               "image: a forward displacement of millimetres in a vector NRRD or MetaImage; texture: what "
-              "`serosa deformation` wrote; relative to the scene file"),
+              "`serosa scene deformation` wrote; relative to the scene file"),
         plain(
             "deformation", "keys", Kind::tables, kAny, "",
             "where it goes: { t, at, turn, scale }; times increase, and between two of them it moves evenly"),

@@ -99,6 +99,30 @@ TEST(SceneCommands, CheckAndExplain) {
     EXPECT_NE(explain.out.find("steps a frame"), std::string::npos) << explain.out;
 }
 
+// A texture that was written is the deformation that it was made from.
+TEST(SceneCommands, DeformationsGoThroughFiles) {
+    const TestFolder folder;
+    ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
+    const std::string scene =
+        "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 300\n"
+        "[look]\nshow = \"implicit\"\n[deformation]\nat = [\"0 mm\", \"0 mm\", \"0 mm\"]\n";
+    folder.write("twist.toml", scene + "kind = \"twist\"\nsize = [\"200 mm\", \"200 mm\", \"200 mm\"]\n"
+                                       "angle = \"30 deg\"\ntexels = [16, 16, 16]\nformat = \"single\"\n");
+    const ChildResult made = runSerosa(folder.path(), {"scene", "deformation", "twist.toml", "-o", "a.nrrd"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    folder.write("file.toml", scene + "kind = \"texture\"\nfile = \"a.nrrd\"\nformat = \"single\"\n");
+    const ChildResult again = runSerosa(folder.path(), {"scene", "deformation", "file.toml", "-o", "b.nrrd"});
+    EXPECT_EQ(again.exitCode, 0) << again.err;
+    EXPECT_EQ(folder.read("a.nrrd"), folder.read("b.nrrd"));
+    const ChildResult exists =
+                          runSerosa(folder.path(), {"scene", "deformation", "file.toml", "-o", "b.nrrd"}),
+                      none = runSerosa(folder.path(), {"scene", "deformation", "file.toml", "--number", "2",
+                                                       "-o", "c.nrrd"});
+    EXPECT_EQ(exists.exitCode, 2);
+    EXPECT_EQ(none.exitCode, 2);
+    EXPECT_EQ(none.errorLines(), 1U) << none.err;
+}
+
 TEST(SceneCommands, SayWhichMethodSteps) {
     const TestFolder folder;
     ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
@@ -111,7 +135,7 @@ TEST(SceneCommands, SayWhichMethodSteps) {
     EXPECT_NE(check.out.find("1 steps a frame (1 implicit)"), std::string::npos) << check.out;
     const ChildResult explain = runSerosa(folder.path(), {"scene", "explain", "stiff.toml"});
     EXPECT_EQ(explain.exitCode, 0) << explain.err;
-    for (const char* text : {"line 6    \"implicit\"", "0.01667 s, one implicit step a frame", "; not taken"})
+    for (const char* text : {"line 6    \"implicit\"", "0.01667 s, implicit, one a frame", "; not taken"})
         EXPECT_NE(explain.out.find(text), std::string::npos) << text << explain.out;
 
     // What explicit steps would need, in one line.

@@ -115,8 +115,8 @@ TEST_F(GlRaycastStage, ASeamIsNotSeen) {
         const bool rim = (apart(mesh, empty, i) > 8) != (apart(cast, empty, i) > 8);
         object += !rim && apart(mesh, empty, i) > 8;
         holes += !rim && apart(mesh, empty, i) > 8 && apart(both, empty, i) <= 2;
-        asMesh += apart(both, mesh, i) == 0 && apart(both, cast, i) > 3;
-        asCast += apart(both, cast, i) == 0 && apart(both, mesh, i) > 3;
+        asMesh += apart(both, mesh, i) == 0 && apart(both, cast, i) > 0;
+        asCast += apart(both, cast, i) == 0 && apart(both, mesh, i) > 0;
         for (std::size_t c = 0; c < 3; ++c) {
             const int a = mesh.rgb[3 * i + c], b = cast.rgb[3 * i + c], m = both.rgb[3 * i + c];
             outside += m < std::min(a, b) - 6 || m > std::max(a, b) + 6;
