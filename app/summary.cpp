@@ -109,18 +109,16 @@ Json latticeJson(const OrganRecord& record) {
 
 Json stepJson(const sim::StableStep& step, sim::StepMethod method) {
     const bool implicit = method == sim::StepMethod::implicit;
-    return {
-        {"method", methodName(method)},
-        {"time_step_s", step.timeStep},
-        {"steps_per_frame", step.stepsPerFrame},
-        {"bound_s", step.bound},
-        {"margin", step.margin},
-        {"stiffest_rate2_1_s2", step.stiffestRate2},
-        {"formula_rate2_1_s2", step.formulaRate2},
-        {"how",
-         std::string("Lanczos iteration on the rest lattice, never below 12 k/m; ") +
-             (implicit ? "bound and margin are those of explicit steps; implicit steps are taken"
-                       : "explicit step below the bound, damping included")}};
+    return {{"method", methodName(method)},
+            {"time_step_s", step.timeStep},
+            {"steps_per_frame", step.stepsPerFrame},
+            {"bound_s", step.bound},
+            {"margin", step.margin},
+            {"stiffest_rate2_1_s2", step.stiffestRate2},
+            {"formula_rate2_1_s2", step.formulaRate2},
+            {"how", std::string("Lanczos iteration on the rest lattice, never below 12 k/m; ") +
+                        (implicit ? "bound and margin are those of explicit steps; implicit steps are taken"
+                                  : "explicit step below the bound, damping included")}};
 }
 
 Json bindingJson(const render::SurfaceBinding& binding) {
