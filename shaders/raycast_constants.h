@@ -19,7 +19,7 @@
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
 #define SRS_MOST_STEP 2.0     // and never longer
 
-#define SRS_LIP_STEP 0.1      // of the step: at the lip of a blade's cut they are no shorter
+#define SRS_LIP_STEP 0.1 // of the step: at the lip of a blade's cut they are no shorter
 
 // The lattice's displacement texture (render/lattice_warp.h).
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
