@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/organ_setup.h"
+#include "app/output_folder.h"
 #include "models/phantom.h"
 #include "sim/mesh_check.h"
 #include "sim/mesh_reader.h"
@@ -76,16 +77,6 @@ void printColours(const sim::TriangleMesh& mesh, std::ostream& out) {
             << grouped(count) << ")";
     }
     out << (sorted.size() > kShown ? ", ..." : "") << "\n";
-}
-
-/// A file to write: not a folder, and not there already.
-Status checkTarget(const std::filesystem::path& file, const std::string& example, bool force) {
-    std::error_code code;
-    if (std::filesystem::is_directory(file, code))
-        return Error{file.string() + " is a folder: name a file, such as " + example};
-    if (!force && std::filesystem::exists(file, code))
-        return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
-    return {};
 }
 
 } // namespace

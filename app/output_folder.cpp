@@ -91,4 +91,13 @@ fs::path OutputFolder::file(const std::string& name) {
     return files_.back();
 }
 
+Status checkTarget(const std::filesystem::path& file, const std::string& example, bool force) {
+    std::error_code code;
+    if (std::filesystem::is_directory(file, code))
+        return Error{file.string() + " is a folder: name a file, such as " + example};
+    if (!force && std::filesystem::exists(file, code))
+        return Error{file.string() + " exists: choose another name with -o, or replace it with --force"};
+    return {};
+}
+
 } // namespace serosa::app

@@ -36,4 +36,7 @@ private:
     bool kept_ = false;
 };
 
+/// A file that a command is to write: not a folder, and not there already. \param example of a name
+Status checkTarget(const std::filesystem::path& file, const std::string& example, bool force);
+
 } // namespace serosa::app

@@ -6,6 +6,7 @@
 #include "app/material_lines.h"
 #include "app/organ_coupling.h"
 #include "app/organ_setup.h"
+#include "app/output_folder.h"
 #include "app/pose.h"
 #include "app/scene_deformation.h"
 #include "sim/quantity.h"
@@ -159,8 +160,7 @@ Result<int> writeSceneDeformation(const std::filesystem::path& sceneFile, std::s
     if (number < 1 || number > count)
         return Error{sceneFile.string() + ": has " + std::to_string(count) +
                      " deformations, and none of number " + std::to_string(number)};
-    if (!force && std::filesystem::exists(file))
-        return Error{file.string() + ": exists: name another file, or replace it by --force"};
+    SEROSA_TRY(checkTarget(file, "deformation.nrrd", force));
     SEROSA_ASSIGN(const SceneDeformation made, SceneDeformation::create(scene));
     const render::DeformationTexture& texture = made.texture(number - 1);
     SEROSA_TRY(writeDeformationTexture(texture, file));

@@ -130,9 +130,9 @@ Status SceneDeformation::check(const sim::TriangleMesh& metres) {
                                "the organ crosses a face of its box on which the map does not vanish, and is "
                                "torn there: " +
                                    torn + ": enlarge the box, or move it until these faces lie outside");
-            const auto [low, high] = render::StageBox::of(warp, faces, 0).bounds();
-            met_[i] =
-                met_[i] || (glm::all(glm::lessThan(low, highest)) && glm::all(glm::lessThan(lowest, high)));
+            const auto box = warp.mapping.boundsOf(warp.texture->half());
+            met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, highest)) &&
+                                  glm::all(glm::lessThan(lowest, box.highest)));
         }
     return {};
 }

@@ -2,7 +2,6 @@
 #include "render/deformation_chain.h"
 
 #include "render/parallel.h"
-#include "render/stage_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,12 +30,9 @@ Result<ChainedWarp> chain(const std::vector<Warp>& warps, TexelFormat format, st
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     double step = low.x;
     for (const Warp& warp : warps) {
-        StageBox box;
-        box.mapping = warp.mapping;
-        box.half = warp.texture->half();
-        const auto [lowest, highest] = box.bounds();
-        low = glm::min(low, lowest);
-        high = glm::max(high, highest);
+        const TextureMapping::Bounds box = warp.mapping.boundsOf(warp.texture->half());
+        low = glm::min(low, box.lowest);
+        high = glm::max(high, box.highest);
         step = std::min(step, finest(warp));
     }
     const glm::dvec3 extent = high - low;

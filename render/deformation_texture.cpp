@@ -68,7 +68,8 @@ Result<DeformationTexture> DeformationTexture::create(const glm::ivec3& size, co
     if (!anyKept)
         return Error{"a deformation texture that cuts everything away: nothing would be drawn"};
     made.scale_ = component > 0 ? component : 1;
-    made.stored_.resize(texels.size() * bytesOf(format));
+    const auto stored = std::make_shared<std::vector<std::uint8_t>>(texels.size() * bytesOf(format));
+    made.stored_ = stored;
     made.texels_.resize(texels.size());
     parallelFor(texels.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
@@ -78,14 +79,14 @@ Result<DeformationTexture> DeformationTexture::create(const glm::ivec3& size, co
                 const std::size_t at = 4 * i + std::size_t(c);
                 if (format == TexelFormat::unorm8) {
                     const int byte = int(std::lround(c < 3 ? 128 + 127 * share : 255 * share));
-                    put(made.stored_, at, std::uint8_t(byte));
+                    put(*stored, at, std::uint8_t(byte));
                     read = c < 3 ? (byte - 128) / 127.0 : byte / 255.0;
                 } else if (format == TexelFormat::half) {
                     const std::uint16_t half16 = glm::packHalf1x16(float(share));
-                    put(made.stored_, at, half16);
+                    put(*stored, at, half16);
                     read = glm::unpackHalf1x16(half16);
                 } else {
-                    put(made.stored_, at, float(share));
+                    put(*stored, at, float(share));
                     read = float(share);
                 }
                 made.texels_[i][c] = float(c < 3 ? read * made.scale_ : read);
@@ -133,7 +134,7 @@ Result<DeformationTexture> DeformationTexture::sum(const DeformationTexture& a, 
 }
 
 std::size_t DeformationTexture::bytes() const {
-    return stored_.size();
+    return stored_->size();
 }
 
 glm::dvec4 DeformationTexture::sample(const glm::dvec3& texture) const {

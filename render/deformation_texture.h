@@ -12,6 +12,7 @@
 #include "render/texture_mapping.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,9 @@ public:
     TexelFormat format() const { return format_; }
     std::size_t bytes() const; // of the texture on the GPU
     /// As they are stored, four a texel: for upload. unorm8 holds bytes: D = scale() (byte - 128) / 127.
-    const std::vector<std::uint8_t>& stored() const { return stored_; }
+    const std::vector<std::uint8_t>& stored() const { return *stored_; }
+    /// The same, which copies share: who keeps it can tell whether a texture is the one it had.
+    const std::shared_ptr<const std::vector<std::uint8_t>>& shared() const { return stored_; }
     /// m: what the largest stored component stands for.
     double scale() const { return scale_; }
     /// Longest D of a texel, m.
@@ -67,7 +70,7 @@ private:
     TexelFormat format_ = TexelFormat::half;
     double scale_ = 1, largest_ = 0;
     bool cuts_ = false;
-    std::vector<std::uint8_t> stored_;
+    std::shared_ptr<const std::vector<std::uint8_t>> stored_;
     std::vector<glm::vec4> texels_; // as a shader reads them
 };
 

@@ -4,10 +4,8 @@
 #include "render/raycast_skip.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 #include <string>
-#include <string_view>
 
 namespace serosa::render {
 
@@ -64,28 +62,13 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
         return;
     const DeformationTexture& texture = *warp->texture;
     mapping_ = warp->mapping;
-    displacement_ = gpu::Texture3D("displacement", glFormat(texture.format()), texture.size());
-    displacement_.upload(GL_RGBA, glType(texture.format()), texture.stored().data());
     const bool bytes = texture.format() == TexelFormat::unorm8;
     scale_ = texture.scale() * (bytes ? 255.0 / 127 : 1);
     bias_ = bytes ? 128.0 / 255 : 0;
     half_ = glm::vec3(texture.half());
-    setSkip(texture);
-    // Of the deformed part: no further out than the longest displacement, and within the box. A box that is
-    // wound or turned: its corners and what lies between them, sampled.
-    constexpr int kSamples = 16;
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    double stretch = 0;
-    for (int z = 0; z <= kSamples; ++z)
-        for (int y = 0; y <= kSamples; ++y)
-            for (int x = 0; x <= kSamples; ++x) {
-                const glm::dvec3 q = (2.0 * glm::dvec3(x, y, z) / double(kSamples) - 1.0) * texture.half();
-                const glm::dvec3 p = mapping_->toObject(q);
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-                const glm::dmat3 j = mapping_->jacobian(q);
-                stretch = std::max({stretch, glm::length(j[0]), glm::length(j[1]), glm::length(j[2])});
-            }
+    upload(texture);
+    // Of the deformed part: no further out than the longest displacement, and within the box.
+    const auto [low, high, stretch] = mapping_->boundsOf(texture.half());
     const double most = 1.8 * stretch * texture.largest(); // of three axes that need not be orthogonal
     // A voxel more: what a box cuts off is seen to begin.
     lowest_ = glm::min(lowest_, glm::max(low, lowest_ - most)) - grid.step;
@@ -96,27 +79,24 @@ void Raycaster::setStage(const std::optional<StageBox>& stage) {
     stage_ = stage;
     if (!stage)
         return;
-    const auto [low, high] = stage->bounds();
-    lowest_ = glm::max(lowest_, low - volume_->grid().step);
-    highest_ = glm::min(highest_, high + volume_->grid().step);
+    const TextureMapping::Bounds box = stage->mapping.boundsOf(stage->half);
+    lowest_ = glm::max(lowest_, box.lowest - volume_->grid().step);
+    highest_ = glm::min(highest_, box.highest + volume_->grid().step);
 }
 
-void Raycaster::setSkip(const DeformationTexture& texture) {
+void Raycaster::upload(const DeformationTexture& texture) {
     // A picture may move the box: what belongs to the texture alone is kept.
-    const std::vector<std::uint8_t>& stored = texture.stored();
-    const std::string_view bytes(reinterpret_cast<const char*>(stored.data()), stored.size());
-    std::size_t made = std::hash<std::string_view>()(bytes);
-    for (const double also : {texture.scale(), texture.half().x, texture.half().y, texture.half().z,
-                              mapping_->cylinderRadius, double(texture.size().x), double(texture.size().y)})
-        made = 31 * made + std::hash<double>()(also);
-    if (skipTexture_ && made == skipOf_)
+    if (texture.shared() == uploaded_ && mapping_->cylinderRadius == woundAround_)
         return;
-    const RaycastSkip skip = RaycastSkip::of(texture, mapping_->cylinderRadius);
+    uploaded_ = texture.shared();
+    woundAround_ = mapping_->cylinderRadius;
+    displacement_ = gpu::Texture3D("displacement", glFormat(texture.format()), texture.size());
+    displacement_.upload(GL_RGBA, glType(texture.format()), texture.stored().data());
+    const RaycastSkip skip = RaycastSkip::of(texture, woundAround_);
     skipTexture_ = gpu::Texture3D("ways to go on", GL_RGBA16F, texture.size());
     skipTexture_.upload(GL_RGB, GL_FLOAT, skip.texels.data());
     skipReach_ = skip.reach;
     maskSlope_ = skip.maskSlope;
-    skipOf_ = made;
 }
 
 Result<gpu::Program*> Raycaster::program(const Variant& variant) {
@@ -182,8 +162,9 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
             inner.z = std::min(inner.z, float(std::numbers::pi * mapping_->cylinderRadius));
         const glm::dmat3 affine(objectFromLocal);
         program.set("u_skipHalf", inner).set("u_skipReach", float(skipReach_));
-        program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(leastStretch(affine)));
-        program.set("u_shareStretch", float(largestStretch(affine) / leastStretch(affine)));
+        const double least = leastStretch(affine);
+        program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(least));
+        program.set("u_shareStretch", float(largestStretch(affine) / least));
     }
     if (stage_) {
         stage_->set(program, origin_, unit_);
@@ -208,7 +189,8 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
     glDrawArrays(GL_TRIANGLES, 0, 36);
-    glDisable(GL_BLEND);
+    if (stage_ && !probe)
+        glDisable(GL_BLEND);
     glCullFace(GL_BACK);
     return {};
 }

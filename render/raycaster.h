@@ -18,7 +18,9 @@
 #include "sim/lattice.h"
 #include "sim/scene.h"
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -87,7 +89,7 @@ private:
     };
     Raycaster() = default;
     Result<gpu::Program*> program(const Variant& variant);
-    void setSkip(const DeformationTexture& texture);
+    void upload(const DeformationTexture& texture);
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
     const DistanceVolume* volume_ = nullptr;
@@ -95,8 +97,9 @@ private:
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
     gpu::Texture3D displacement_, skipTexture_;
-    double skipReach_ = 0, maskSlope_ = 1; // m, 1/m
-    std::size_t skipOf_ = 0;               // what skipTexture_ was made from
+    double skipReach_ = 0, maskSlope_ = 1;                      // m, 1/m
+    std::shared_ptr<const std::vector<std::uint8_t>> uploaded_; // what the textures were made from,
+    double woundAround_ = 0;                                    // and of which radius
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m

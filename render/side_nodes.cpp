@@ -3,13 +3,23 @@
 
 #include "shaders/shared_constants.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace serosa::render {
 
+namespace {
+
+constexpr int kMostDims = 1024; // a place in the grid packs in ten bits an axis
+
+} // namespace
+
 Result<SideNodes> SideNodes::create(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
+    if (std::max({lattice.nodeDims.x, lattice.nodeDims.y, lattice.nodeDims.z}) > kMostDims)
+        return Error{"a cut lattice of more than " + std::to_string(kMostDims) +
+                     " nodes along an axis: raise its spacing"};
     SideNodes made;
     SEROSA_ASSIGN(made.program_, gpu::Program::create(gpu::ShaderLibrary(), {"side_nodes.comp"}));
     std::vector<glm::uvec4> nodes;
@@ -33,7 +43,7 @@ void SideNodes::update(const sim::StateTextures& state, const CutMask& mask) {
     std::array<int, 3 * SRS_NEIGHBOURS> offsets{};
     for (std::size_t i = 0; i < offsets.size(); ++i)
         offsets[i] = sim::kNeighbourOffsets[i / 3][int(i % 3)];
-    glMemoryBarrier(GL_ALL_BARRIER_BITS); // of whatever wrote the state
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT); // steps, the mask's paint
     program_.texture("t_positions", state.positions()).texture("t_nodeInfo", state.nodeInfo());
     program_.buffer("b_nodes", nodes_).buffer("b_grid", grid_).buffer("b_sides", mask.sides());
     program_.image("i_above", above_, GL_WRITE_ONLY).image("i_below", below_, GL_WRITE_ONLY);

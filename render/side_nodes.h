@@ -22,7 +22,7 @@ namespace serosa::render {
 
 class SideNodes {
 public:
-    /// Needs a current context. Errors: of the shader.
+    /// Needs a current context. Errors: more than 1024 nodes along an axis, of the shader.
     static Result<SideNodes> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
     /// \param mask of the same lattice
     void update(const sim::StateTextures& state, const CutMask& mask);

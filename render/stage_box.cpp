@@ -2,7 +2,6 @@
 #include "render/stage_box.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace serosa::render {
 
@@ -25,20 +24,6 @@ void StageBox::set(gpu::Program& program, const glm::dvec3& origin, double unit)
     program.set("u_stageFromObject", glm::mat4(glm::inverse(mapping.objectFromLocal) * worldFromObject));
     program.set("u_stageCylinder", float(mapping.cylinderRadius)).set("u_stageHalf", glm::vec3(half));
     program.set("u_seamLow", glm::vec3(seamLow)).set("u_seamHigh", glm::vec3(seamHigh));
-}
-
-std::pair<glm::dvec3, glm::dvec3> StageBox::bounds() const {
-    constexpr int kSamples = 16; // a box that is wound bulges between its corners
-    glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (int z = 0; z <= kSamples; ++z)
-        for (int y = 0; y <= kSamples; ++y)
-            for (int x = 0; x <= kSamples; ++x) {
-                const glm::dvec3 p =
-                    mapping.toObject((2.0 * glm::dvec3(x, y, z) / double(kSamples) - 1.0) * half);
-                low = glm::min(low, p);
-                high = glm::max(high, p);
-            }
-    return {low, high};
 }
 
 } // namespace serosa::render

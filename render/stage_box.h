@@ -19,8 +19,6 @@ struct StageBox {
 
     /// Sets what shaders/stage_box.glsl asks for. \param origin, unit m: of the object space of the program
     void set(gpu::Program& program, const glm::dvec3& origin, double unit) const;
-    /// Bounds in object space, m.
-    std::pair<glm::dvec3, glm::dvec3> bounds() const;
 };
 
 } // namespace serosa::render

@@ -284,14 +284,17 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
     program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::inCells)
         program.texture("t_cells", cells_);
-    if (stage == SurfaceStage::inCells && sideNodes_) {
-        sideNodes_->update(state, *mask_);
+    if (stage == SurfaceStage::inCells && sideNodes_)
         program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
-    }
-    if (stage == SurfaceStage::nodeFrames) {
-        frames_->run(state.positions());
+    if (stage == SurfaceStage::nodeFrames)
         program.texture("t_frames", frames_->frames());
-    }
+}
+
+void SurfacePasses::follow(const sim::StateTextures& state, SurfaceStage stage) {
+    if (stage == SurfaceStage::inCells && sideNodes_)
+        sideNodes_->update(state, *mask_);
+    if (stage == SurfaceStage::nodeFrames)
+        frames_->run(state.positions());
 }
 
 void SurfacePasses::setVertexInputs(gpu::Program& program, const sim::StateTextures& state,
@@ -412,6 +415,7 @@ void SurfacePasses::feedBack(SurfaceStage stage, const gpu::Program& program, co
 gpu::Buffer SurfacePasses::shown(const sim::StateTextures& state, SurfaceStage stage) {
     SEROSA_CHECK(stage != SurfaceStage::nodes, "node positions are in the state texture already");
     gpu::Program& program = (blends(stage) ? blendCaptures_ : captures_).at(stage);
+    follow(state, stage);
     setVertexInputs(program, state, Frame{}, stage);
     gpu::Buffer captured("captured vertices", vertexCount() * kCapturedBytes, nullptr);
     feedBack(stage, program, captured);
@@ -424,6 +428,7 @@ Result<std::vector<glm::mat3>> SurfacePasses::captureAxes(const sim::StateTextur
     SEROSA_ASSIGN(gpu::Program program,
                   gpu::Program::create(gpu::ShaderLibrary(), {"mapped_axes.vert"}, defines(stage),
                                        {"v_tangent", "v_axis", "v_bitangent"}));
+    follow(state, stage);
     setNodes(program, state, stage);
     std::vector<glm::mat3> captured(vertexCount()), axes;
     const gpu::Buffer buffer("captured axes", captured.size() * sizeof captured[0], nullptr);
@@ -445,6 +450,7 @@ void SurfacePasses::startBlend(const sim::StateTextures& state, SurfaceStage sta
     gpu::Program& program = blendStarts_.at(stage);
     attachBlend(stage, shown);
     program.set("u_shownScale", scale).set("u_shownShift", shift);
+    follow(state, stage);
     setNodes(program, state, stage);
     blend_ = gpu::Buffer("switch of detail", vertexCount() * kCapturedBytes, nullptr);
     feedBack(stage, program, blend_);

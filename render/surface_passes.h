@@ -55,6 +55,9 @@ public:
     Result<Programs> compile(const gpu::ShaderLibrary& library) const;
     Programs& programs() { return programs_; }
 
+    /// What a stage derives of the state's nodes before it draws them: once a state, before draw and
+    /// drawDepth.
+    void follow(const sim::StateTextures& state, SurfaceStage stage);
     /// Draws into the bound target with its depth test.
     /// \param bare linear colour of a boundary that has none of its own (stage nodes).
     void draw(const sim::StateTextures& state, const Frame& frame, SurfaceStage stage,

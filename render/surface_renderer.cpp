@@ -263,6 +263,8 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
                 frames.back().shades.emplace_back(organ.placement.toLattice(drawn.pose.at),
                                                   drawn.shape.radius / organ.placement.spacing);
     }
+    for (std::size_t i = 0; i < in.organs.size() && view.look.surface; ++i)
+        in.organs[i].surface.follow(*states[i], stageOf(view.look.mapping));
     if (view.look.shadows)
         in.drawShadow(states, view, frames);
     if (view.look.occlusion)

@@ -1,7 +1,9 @@
 // See render/texture_mapping.h.
 #include "render/texture_mapping.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace serosa::render {
 
@@ -30,6 +32,24 @@ glm::dmat3 TextureMapping::jacobian(const glm::dvec3& texture) const {
         local[2] = {-share * std::sin(phi), 0, share * std::cos(phi)};
     }
     return glm::dmat3(objectFromLocal) * local;
+}
+
+TextureMapping::Bounds TextureMapping::boundsOf(const glm::dvec3& half) const {
+    constexpr int kSamples = 16;
+    Bounds bounds;
+    bounds.lowest = glm::dvec3(std::numeric_limits<double>::infinity());
+    bounds.highest = -bounds.lowest;
+    for (int z = 0; z <= kSamples; ++z)
+        for (int y = 0; y <= kSamples; ++y)
+            for (int x = 0; x <= kSamples; ++x) {
+                const glm::dvec3 q = (2.0 * glm::dvec3(x, y, z) / double(kSamples) - 1.0) * half;
+                bounds.lowest = glm::min(bounds.lowest, toObject(q));
+                bounds.highest = glm::max(bounds.highest, toObject(q));
+                const glm::dmat3 j = jacobian(q);
+                for (int axis = 0; axis < 3; ++axis)
+                    bounds.stretch = std::max(bounds.stretch, glm::length(j[axis]));
+            }
+    return bounds;
 }
 
 } // namespace serosa::render

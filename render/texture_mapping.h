@@ -19,6 +19,14 @@ struct TextureMapping {
     glm::dvec3 toObject(const glm::dvec3& texture) const;
     /// d toObject / d texture; column j in [j].
     glm::dmat3 jacobian(const glm::dvec3& texture) const;
+
+    /// Of the box |q| <= half in object space. A box that is wound or turned bulges between its corners: from
+    /// samples.
+    struct Bounds {
+        glm::dvec3 lowest{0}, highest{0};
+        double stretch = 0; // of an axis of texture space, the largest
+    };
+    Bounds boundsOf(const glm::dvec3& half) const;
 };
 
 } // namespace serosa::render

@@ -83,7 +83,7 @@ bool entersInside(Place place) {
 
 float stageAt(vec3 shown) {
 #ifdef RAYCAST_LATTICE
-    shown += readLattice(shown).xyz;
+    shown = moveBack(shown).rest;
 #endif
     return stageDepth(shown);
 }

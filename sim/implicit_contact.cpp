@@ -118,18 +118,13 @@ void ImplicitContact<Real>::begin(std::int64_t step, const std::vector<ToolMotio
             touches_[node].slides = earlier[node].w < kSticks;
             offset_[node] = touches_[node].given / -stiffness_[node];
         }
-    stage_.keep({});
     std::vector<std::uint32_t> kept;
-    for (std::uint32_t node = 0; node < heldBy.size(); ++node) {
-        const std::uint32_t holder = heldBy[node];
-        if (holder != 0 && std::isfinite(tools[holder - 1].grip)) {
-            held_.push_back(node);
-            heldMass_[holder - 1] += 1 / stage_.inverseMass(node);
-        } else if (holder != 0) {
-            kept.push_back(node);
-        }
-    }
+    for (std::uint32_t node = 0; node < heldBy.size(); ++node)
+        if (const std::uint32_t holder = heldBy[node]; holder != 0)
+            (std::isfinite(tools[holder - 1].grip) ? held_ : kept).push_back(node);
     stage_.keep(std::move(kept));
+    for (const std::uint32_t node : held_)
+        heldMass_[heldBy[node] - 1] += 1 / stage_.inverseMass(node);
 }
 
 /// What the supports of the last round give after its step.

@@ -166,7 +166,7 @@ Status readOne(const SceneSource& source, const SceneTable& table, const std::st
 
 Status readDeformations(const SceneSource& source, const SceneTable& top, const std::filesystem::path& folder,
                         Scene& scene) {
-    SEROSA_ASSIGN(const auto all, top.tables("deformation"));
+    SEROSA_ASSIGN(const auto all, top.tableOrTables("deformation"));
     const Look& look = scene.look;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string path = "deformation[" + std::to_string(i) + "]";

@@ -328,8 +328,6 @@ Result<std::vector<const toml::table*>> SceneTable::tables(const char* key) cons
         : table_ == "tool"
             ? "an array of { t = ..., at = ... }"
             : "tables: write [[" + (table_.empty() ? key : table_ + "." + key) + "]], once for each";
-    if (table_.empty() && std::string(key) == "deformation" && given->is_table()) // one alone
-        return std::vector<const toml::table*>{given->as_table()};
     if (!given->is_array())
         return errorAt(key, std::string("is ") + typeName(*given) + ", expected " + expected);
     for (const toml::node& item : *given->as_array()) {
@@ -339,6 +337,13 @@ Result<std::vector<const toml::table*>> SceneTable::tables(const char* key) cons
         list.push_back(item.as_table());
     }
     return list;
+}
+
+Result<std::vector<const toml::table*>> SceneTable::tableOrTables(const char* key) const {
+    const toml::node* given = node(key);
+    if (given && given->is_table())
+        return std::vector<const toml::table*>{given->as_table()};
+    return tables(key);
 }
 
 } // namespace serosa::sim

@@ -61,6 +61,8 @@ public:
     Result<const toml::table*> table(const char* key) const;
     /// An array of tables; empty where absent.
     Result<std::vector<const toml::table*>> tables(const char* key) const;
+    /// The same, or one that is written [key].
+    Result<std::vector<const toml::table*>> tableOrTables(const char* key) const;
 
 private:
     const SceneKey& spec(const char* key) const;

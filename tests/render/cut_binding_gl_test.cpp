@@ -4,8 +4,7 @@
 #include "shaders/shared_constants.h"
 #include "sim/packed_normal.h"
 #include "sim/solver.h"
-#include "tests/gl_fixture.h"
-#include "tests/render/shapes.h"
+#include "tests/render/ball_fixture.h"
 
 #include <algorithm>
 
@@ -14,14 +13,15 @@ namespace {
 
 constexpr double kSpacing = 0.004, kRadius = 5.2 * kSpacing; // m
 
-class GlCutBinding : public test::GlTest {
+class GlCutBinding : public test::GlBallTest {
 protected:
     void SetUp() override {
-        test::GlTest::SetUp();
+        test::GlBallTest::SetUp();
         if (HasFatalFailure())
             return;
-        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
-        mesh_ = test::ballMesh(24, kRadius, lattice_.toWorld(glm::dvec3(6 - lattice_.centre)));
+        makeBall(24, kSpacing);
+        if (HasFatalFailure())
+            return;
         // A blade from above to the middle, between two layers of nodes.
         connections_ = lattice_.connections;
         for (std::size_t node = 0; node < lattice_.nodeCount(); ++node)
@@ -65,8 +65,6 @@ protected:
     static glm::dvec3 bent(const glm::dvec3& q) { return bend(q, {}, 7); }
     static glm::dvec3 still(const glm::dvec3& q) { return q; }
 
-    sim::Lattice lattice_;
-    sim::TriangleMesh mesh_;
     std::vector<std::uint32_t> connections_;
 };
 

@@ -4,8 +4,7 @@
 #include "render/mapping_measures.h"
 #include "render/surface_renderer.h"
 #include "shaders/shared_constants.h"
-#include "tests/gl_fixture.h"
-#include "tests/render/shapes.h"
+#include "tests/render/ball_fixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,19 +17,16 @@ constexpr int kSize = 400;                                                   // 
 constexpr double kPixel = kHeight / kSize;                                   // m
 constexpr double kPlane = 0.3; // of the cut: x, lattice units, at rest
 
-class GlCutMask : public test::GlTest {
+class GlCutMask : public test::GlBallTest {
 protected:
     void SetUp() override {
-        test::GlTest::SetUp();
+        test::GlBallTest::SetUp();
         if (HasFatalFailure())
             return;
-        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
-        middle_ = glm::dvec3(6 - lattice_.centre); // of the ball, lattice units
-        mesh_ = test::ballMesh(40, kRadius, lattice_.toWorld(middle_));
+        makeBall(40, kSpacing);
+        if (HasFatalFailure())
+            return;
         binding_ = bindSurface(lattice_, mesh_, sim::Mapping::curvature);
-        auto state = sim::StateTextures::create(lattice_, {});
-        ASSERT_TRUE(state.ok());
-        state_.emplace(std::move(state).value());
         auto renderer = SurfaceRenderer::create(lattice_, mesh_, binding_, *state_, kSize, kSize);
         ASSERT_TRUE(renderer.ok()) << renderer.error().message;
         renderer_.emplace(std::move(renderer).value());
@@ -44,8 +40,7 @@ protected:
     }
     void TearDown() override {
         renderer_.reset();
-        state_.reset();
-        test::GlTest::TearDown();
+        test::GlBallTest::TearDown();
     }
 
     /// Through the whole ball at x = `at` from its middle, lattice units, from above in `parts` parts.
@@ -106,11 +101,7 @@ protected:
         return SRS_MASK_WIDTH / mask->voxelsPerSpacing();
     }
 
-    sim::Lattice lattice_;
-    glm::dvec3 middle_{0};
-    sim::TriangleMesh mesh_;
     SurfaceBinding binding_;
-    std::optional<sim::StateTextures> state_;
     std::optional<SurfaceRenderer> renderer_;
     std::vector<std::uint32_t> connections_;
     View view_;

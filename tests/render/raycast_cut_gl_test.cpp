@@ -8,8 +8,7 @@
 #include "shaders/shared_constants.h"
 #include "sim/blade.h"
 #include "sim/pieces.h"
-#include "tests/gl_fixture.h"
-#include "tests/render/shapes.h"
+#include "tests/render/ball_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -72,18 +71,15 @@ private:
     std::vector<float> depths_;
 };
 
-class GlRaycastCut : public test::GlTest {
+class GlRaycastCut : public test::GlBallTest {
 protected:
     void SetUp() override {
-        test::GlTest::SetUp();
+        test::GlBallTest::SetUp();
         if (HasFatalFailure())
             return;
-        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
-        middle_ = glm::dvec3(6 - lattice_.centre);
-        mesh_ = test::ballMesh(28, kRadius, lattice_.toWorld(middle_));
-        auto state = sim::StateTextures::create(lattice_, {});
-        ASSERT_TRUE(state.ok());
-        state_.emplace(std::move(*state));
+        makeBall(28, kSpacing);
+        if (HasFatalFailure())
+            return;
         auto mask = CutMask::create(lattice_, state_->layout());
         ASSERT_TRUE(mask.ok());
         mask_.emplace(std::move(*mask));
@@ -111,8 +107,7 @@ protected:
         volume_.reset();
         warp_.reset();
         mask_.reset();
-        state_.reset();
-        test::GlTest::TearDown();
+        test::GlBallTest::TearDown();
     }
 
     double side(const glm::dvec3& rest) const {
@@ -213,12 +208,9 @@ protected:
         return probes.ok() ? *probes : std::vector<RaycastProbe>();
     }
 
-    sim::Lattice lattice_;
-    glm::dvec3 middle_{0}, normal_{1, 0, 0}; // spacings
-    double half_ = 0;                        // of what the blade took, spacings
+    glm::dvec3 normal_{1, 0, 0};
+    double half_ = 0; // of what the blade took, spacings
     Half halves_[2];
-    sim::TriangleMesh mesh_;
-    std::optional<sim::StateTextures> state_;
     std::optional<CutMask> mask_;
     std::optional<LatticeWarp> warp_;
     std::optional<DistanceVolume> volume_;
@@ -370,6 +362,7 @@ TEST_F(GlRaycastCut, TheSurfaceAndWhatIsRayCastAgreeToAPixel) {
         state_->upload(now);
         ASSERT_TRUE(warp_->update(*state_, cut ? &*mask_ : nullptr).ok());
         const View view = this->view(glm::normalize(glm::dvec3(0.7, -0.2, -0.7)));
+        passes->follow(*state_, SurfaceStage::inCells);
         const Drawn surface([&] { passes->drawDepth(*state_, view.frame, SurfaceStage::inCells); }),
             cast([&] { EXPECT_TRUE(caster_->draw(view.frame, {}).ok()); });
         const std::vector<RaycastProbe> kinds = probe(view, Solid::solid);

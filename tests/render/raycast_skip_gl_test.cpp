@@ -3,6 +3,7 @@
 #include "render/raycast_measures.h"
 #include "render/raycast_skip.h"
 #include "tests/gl_fixture.h"
+#include "tests/render/ball_maps.h"
 
 #include <gtest/gtest.h>
 
@@ -14,21 +15,6 @@
 
 namespace serosa::render {
 namespace {
-
-DeformationMap mapOf(MapKind kind) {
-    DeformationMap map;
-    map.kind = kind;
-    map.half = glm::dvec3(0.055);
-    map.amount = kind == MapKind::twist || kind == MapKind::bend ? 0.9
-                 : kind == MapKind::peel                         ? -0.01
-                 : kind == MapKind::pull                         ? 0.04
-                                                                 : 0.008;
-    map.radius = kind == MapKind::peel ? 0.035 : 0.015;
-    map.extent = kind == MapKind::wave ? 0.04 : 0.07;
-    map.depth = kind == MapKind::peel ? 0.08 : 0.06;
-    map.width = 0.06;
-    return map;
-}
 
 TEST(Stretch, IsThatOfScalesAndTurns) {
     const double c = std::cos(0.7), s = std::sin(0.7);
@@ -48,7 +34,7 @@ TEST(RaycastSkip, BoundsHold) {
     for (const MapKind kind : {MapKind::twist, MapKind::pull, MapKind::knife, MapKind::peel})
         for (const double radius : {0.0, 0.08}) {
             SCOPED_TRACE(std::string(nameOf(kind)) + (radius > 0 ? ", wound" : ""));
-            const auto texture = DeformationTexture::bake(mapOf(kind), {40, 32, 24}, TexelFormat::single);
+            const auto texture = DeformationTexture::bake(ballMap(kind), {40, 32, 24}, TexelFormat::single);
             ASSERT_TRUE(texture.ok()) << texture.error().message;
             const RaycastSkip skip = RaycastSkip::of(*texture, radius);
             // A filter as the shader's, for what fits a deformation.
@@ -119,7 +105,7 @@ TEST_P(GlRaycastSkip, ShowsTheSame) {
     const auto volume =
         DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 48, 3), 0.012);
     ASSERT_TRUE(volume.ok()) << volume.error().message;
-    const auto texture = DeformationTexture::bake(mapOf(tested.kind), glm::ivec3(40), TexelFormat::half);
+    const auto texture = DeformationTexture::bake(ballMap(tested.kind), glm::ivec3(40), TexelFormat::half);
     ASSERT_TRUE(texture.ok()) << texture.error().message;
     Warp warp{&*texture, {}};
     // Turned, and of other scales along its axes.

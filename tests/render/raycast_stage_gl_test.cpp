@@ -3,8 +3,7 @@
 #include "render/mapping_measures.h"
 #include "render/raycaster.h"
 #include "render/surface_renderer.h"
-#include "tests/gl_fixture.h"
-#include "tests/render/shapes.h"
+#include "tests/render/ball_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +17,15 @@ namespace {
 constexpr int kSize = 160;
 constexpr double kSpacing = 0.008, kRadius = 5.2 * kSpacing; // m
 
-class GlRaycastStage : public test::GlTest {
+class GlRaycastStage : public test::GlBallTest {
 protected:
     void SetUp() override {
-        test::GlTest::SetUp();
+        test::GlBallTest::SetUp();
         if (HasFatalFailure())
             return;
-        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
-        centre_ = lattice_.toWorld(glm::dvec3(6 - lattice_.centre));
-        mesh_ = test::ballMesh(48, kRadius, centre_);
-        auto state = sim::StateTextures::create(lattice_, {});
-        ASSERT_TRUE(state.ok());
-        state_.emplace(std::move(state).value());
+        makeBall(48, kSpacing);
+        if (HasFatalFailure())
+            return;
         binding_ = bindSurface(lattice_, mesh_, sim::Mapping::curvature);
         auto renderer = SurfaceRenderer::create(lattice_, mesh_, binding_, *state_, kSize, kSize);
         ASSERT_TRUE(renderer.ok()) << renderer.error().message;
@@ -50,8 +46,7 @@ protected:
         caster_.reset();
         volume_.reset();
         renderer_.reset();
-        state_.reset();
-        test::GlTest::TearDown();
+        test::GlBallTest::TearDown();
     }
     Image draw(sim::Show show, sim::Stage stage = sim::Stage::whole) {
         view_.look.show = show;
@@ -86,11 +81,7 @@ protected:
         return most;
     }
 
-    sim::Lattice lattice_;
-    sim::TriangleMesh mesh_;
     SurfaceBinding binding_;
-    glm::dvec3 centre_{0};
-    std::optional<sim::StateTextures> state_;
     std::optional<SurfaceRenderer> renderer_;
     std::optional<DistanceVolume> volume_;
     std::optional<Raycaster> caster_;
@@ -127,6 +118,31 @@ TEST_F(GlRaycastStage, ASeamIsNotSeen) {
     EXPECT_EQ(outside, 0);
     EXPECT_GT(asMesh, 500) << "the lower part is the mesh's";
     EXPECT_GT(asCast, 500) << "the upper part is ray-cast";
+}
+
+// A lattice at rest takes every place from where it is: the box is where it was.
+TEST_F(GlRaycastStage, LiesWhereTheLatticeHasIt) {
+    const Warp warp = warpOf(0.03);
+    caster_->setWarp(warp);
+    stage(warp, 0.004);
+    const Image still = draw(sim::Show::implicit, sim::Stage::box);
+    auto lattice = LatticeWarp::create(lattice_, state_->layout());
+    ASSERT_TRUE(lattice.ok()) << lattice.error().message;
+    ASSERT_TRUE(lattice->update(*state_).ok());
+    caster_->setLattice(&*lattice);
+    const Image moved = draw(sim::Show::implicit, sim::Stage::box);
+    caster_->setLattice(nullptr);
+    view_.look.surface = false;
+    const Image empty = draw(sim::Show::surface);
+    int shown = 0, differs = 0;
+    for (int y = kSize / 2; y < kSize; ++y) // below the spike, which leaves the lattice
+        for (int x = 0; x < kSize; ++x) {
+            const std::size_t i = std::size_t(y) * kSize + std::size_t(x);
+            shown += apart(still, empty, i) > 8;
+            differs += apart(still, moved, i) > 16;
+        }
+    EXPECT_GT(shown, 200);
+    EXPECT_LT(differs, 0.02 * shown);
 }
 
 TEST_F(GlRaycastStage, PartsMakeTheWhole) {

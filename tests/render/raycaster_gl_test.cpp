@@ -3,6 +3,7 @@
 #include "render/raycast_twin.h"
 #include "render/raycaster.h"
 #include "tests/gl_fixture.h"
+#include "tests/render/ball_maps.h"
 #include "tests/sim/shapes.h"
 
 #include <gtest/gtest.h>
@@ -139,27 +140,11 @@ struct Case {
 
 class GlRaycasterTwin : public GlRaycaster, public ::testing::WithParamInterface<Case> {};
 
-DeformationMap mapOf(MapKind kind) {
-    DeformationMap map;
-    map.kind = kind;
-    map.half = glm::dvec3(0.055);
-    map.amount = kind == MapKind::twist || kind == MapKind::bend ? 0.9
-                 : kind == MapKind::peel                         ? -0.01
-                                                                 : 0.008;
-    map.radius = kind == MapKind::peel ? 0.035 : 0.015;
-    map.extent = kind == MapKind::wave ? 0.04 : 0.07;
-    map.depth = kind == MapKind::peel ? 0.08 : 0.06;
-    map.width = 0.06;
-    if (kind == MapKind::pull)
-        map.amount = 0.04;
-    return map;
-}
-
 TEST_P(GlRaycasterTwin, AgreesOnRandomViews) {
     const Case& tested = GetParam();
     const sim::TriangleMesh mesh = ball();
     const DistanceVolume volume = volumeOf(mesh);
-    const auto texture = DeformationTexture::bake(mapOf(tested.kind), glm::ivec3(48), TexelFormat::half);
+    const auto texture = DeformationTexture::bake(ballMap(tested.kind), glm::ivec3(48), TexelFormat::half);
     ASSERT_TRUE(texture.ok()) << texture.error().message;
     Warp warp{&*texture, {}};
     warp.mapping.objectFromLocal = glm::dmat4(1.02);

@@ -1,8 +1,7 @@
 // Pictures whose content is known without a reference picture.
 #include "render/mapping_measures.h"
 #include "render/surface_renderer.h"
-#include "tests/gl_fixture.h"
-#include "tests/render/shapes.h"
+#include "tests/render/ball_fixture.h"
 
 #include <cmath>
 #include <numbers>
@@ -14,18 +13,15 @@ constexpr double kSpacing = 0.004, kRadius = 5.2 * kSpacing; // m
 constexpr int kSize = 256;                                   // pixels
 constexpr double kHeight = 0.06;                             // m, of the orthographic picture
 
-class GlSurfaceRenderer : public test::GlTest {
+class GlSurfaceRenderer : public test::GlBallTest {
 protected:
     void SetUp() override {
-        test::GlTest::SetUp();
+        test::GlBallTest::SetUp();
         if (HasFatalFailure())
             return;
-        lattice_ = test::ballLattice(kRadius / kSpacing, kSpacing, {0.1, 1.6, -0.4});
-        centre_ = lattice_.toWorld(glm::dvec3(6 - lattice_.centre));
-        mesh_ = test::ballMesh(24, kRadius, centre_);
-        auto state = sim::StateTextures::create(lattice_, {});
-        ASSERT_TRUE(state.ok());
-        state_.emplace(std::move(state).value());
+        makeBall(24, kSpacing);
+        if (HasFatalFailure())
+            return;
         auto renderer = SurfaceRenderer::create(
             lattice_, mesh_, bindSurface(lattice_, mesh_, sim::Mapping::curvature), *state_, kSize, kSize);
         ASSERT_TRUE(renderer.ok()) << renderer.error().message;
@@ -39,8 +35,7 @@ protected:
     }
     void TearDown() override {
         renderer_.reset();
-        state_.reset();
-        test::GlTest::TearDown();
+        test::GlBallTest::TearDown();
     }
     Image draw() {
         renderer_->draw(*state_, view_);
@@ -63,10 +58,6 @@ protected:
         return count / (double(with.rgb.size()) / 3);
     }
 
-    sim::Lattice lattice_;
-    sim::TriangleMesh mesh_;
-    glm::dvec3 centre_{0};
-    std::optional<sim::StateTextures> state_;
     std::optional<SurfaceRenderer> renderer_;
     View view_;
 };
