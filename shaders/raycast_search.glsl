@@ -127,7 +127,7 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
         }
         float low = last, high = t;
         Place out_ = before, in_ = now;
-        for (int i = 0; found && i < SRS_BISECTIONS; ++i) {
+        for (int i = 0; found && i < SRS_BISECTIONS && high - low > SRS_EXACT * u_step; ++i) {
             float middle = 0.5 * (low + high);
             Place at = placeAt(from + middle * along);
             if (crossed(before, at)) {

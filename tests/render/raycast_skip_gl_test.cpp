@@ -94,6 +94,54 @@ struct Case {
     double wound = 0;
 };
 
+class GlRaycastSkipTight : public test::GlTest {};
+
+// A ball that is shown smaller in all directions: what the bound says is how far its wall is. The wall is so
+// thin that whoever goes on by more comes out behind it.
+TEST_F(GlRaycastSkipTight, AThinWallIsNotOverrun) {
+    auto mesh = models::makePhantom("ball", 8000);
+    ASSERT_TRUE(mesh);
+    for (glm::dvec3& p : mesh->positions)
+        p = 0.04 * glm::normalize(p);
+    const auto volume =
+        DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 64, 3), 0.006);
+    ASSERT_TRUE(volume.ok()) << volume.error().message;
+    const double half = 0.06, shrinks = 1.6;
+    std::vector<glm::dvec4> texels;
+    for (int z = 0; z < 16; ++z)
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 16; ++x)
+                texels.emplace_back((shrinks - 1) * half * (glm::dvec3(x, y, z) - 7.5) / 8.0, 1);
+    const auto texture =
+        DeformationTexture::create(glm::ivec3(16), glm::dvec3(half), TexelFormat::single, texels);
+    ASSERT_TRUE(texture.ok()) << texture.error().message;
+    const sim::Lattice space = objectSpace(0.004);
+    auto caster = Raycaster::create(space, *volume);
+    ASSERT_TRUE(caster.ok());
+    caster->setWarp(Warp{&*texture, {}});
+    const RaycastView view = RaycastView::of(space, 0.8 * mesh->lowest(), 0.8 * mesh->highest(),
+                                             {-0.3, -0.8, -0.6}, sim::Projection::perspective, 96, 96);
+    for (const Search search : {Search::linear, Search::jacobian}) {
+        RaycastLook look;
+        look.solid = Solid::shell;
+        look.thickness = 1.5 * volume->grid().step;
+        look.search = search;
+        const auto probes = caster->probe(view.frame, look, view.width, view.height);
+        ASSERT_TRUE(probes.ok()) << probes.error().message;
+        int outside = 0, inner = 0;
+        double off = 0;
+        for (const RaycastProbe& probe : *probes) {
+            outside += probe.kind == RaycastProbe::surface;
+            inner += probe.kind == RaycastProbe::innerSide;
+            if (probe.kind == RaycastProbe::surface)
+                off = std::max(off, std::abs(glm::length(probe.rest) - 0.04));
+        }
+        EXPECT_GT(outside, 1000);
+        EXPECT_EQ(inner, 0);
+        EXPECT_LT(off, 0.25 * volume->grid().step);
+    }
+}
+
 class GlRaycastSkip : public test::GlTest, public ::testing::WithParamInterface<Case> {};
 
 TEST_P(GlRaycastSkip, ShowsTheSame) {
@@ -138,7 +186,7 @@ TEST_P(GlRaycastSkip, ShowsTheSame) {
     }
     ASSERT_GT(agreement.object, 3000);
     EXPECT_LE(agreement.silhouettes, 4) << "of " << agreement.object;
-    EXPECT_LE(agreement.deep, agreement.both / 300) << "of " << agreement.both;
+    EXPECT_LE(agreement.deep, agreement.both / 1000) << "of " << agreement.both;
 }
 
 INSTANTIATE_TEST_SUITE_P(
