@@ -30,7 +30,7 @@ constexpr Model kModels[] = {
 /// How far the box is from filling the picture.
 constexpr double kZooms[] = {2.6, 1.6, 1.1};
 
-/// What is drawn, and how.
+/// What is drawn, and how. Continuous: the same displacement, of which nothing is cut away.
 struct Way {
     const char* name;
     bool cuts, skipField, skipCut;
@@ -76,15 +76,15 @@ private:
     gpu::Framebuffer target_;
 };
 
-/// A model with its field and two maps.
+/// A model with its field and its maps.
 struct Subject {
     std::string name;
     std::size_t faces = 0;
     glm::dvec3 lowest{0}, highest{0};
     sim::Lattice space;
     std::unique_ptr<render::DistanceVolume> field;
-    std::unique_ptr<render::DeformationTexture> twist, knife;
-    std::unique_ptr<render::Raycaster> plain, continuous, cut;
+    std::unique_ptr<render::DeformationTexture> twist, knife, whole; // whole: the knife's, nothing cut
+    std::unique_ptr<render::Raycaster> plain, twisted, continuous, cut;
 
     render::RaycastView view(double zoom, int size = kPictureSize) const {
         const glm::dvec3 middle = 0.5 * (lowest + highest), half = 0.5 * zoom * (highest - lowest);
@@ -103,6 +103,18 @@ struct Subject {
         return double(covered) / pixels;
     }
 };
+
+Result<render::DeformationTexture> uncut(const render::DeformationTexture& texture) {
+    std::vector<glm::dvec4> texels;
+    const glm::ivec3& size = texture.size();
+    for (int z = 0; z < size.z; ++z)
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x)
+                texels.emplace_back(glm::dvec3(texture.sample(
+                                        (glm::dvec3(x, y, z) + 0.5) * texture.texelSize() - texture.half())),
+                                    1);
+    return render::DeformationTexture::create(size, texture.half(), texture.format(), texels);
+}
 
 Result<std::unique_ptr<Subject>> subjectOf(const Model& model) {
     auto made = std::make_unique<Subject>();
@@ -134,8 +146,11 @@ Result<std::unique_ptr<Subject>> subjectOf(const Model& model) {
     };
     SEROSA_ASSIGN(made->twist, textureOf(render::MapKind::twist));
     SEROSA_ASSIGN(made->knife, textureOf(render::MapKind::knife));
+    SEROSA_ASSIGN(render::DeformationTexture whole, uncut(*made->knife));
+    made->whole = std::make_unique<render::DeformationTexture>(std::move(whole));
     SEROSA_ASSIGN(made->plain, casterOf(nullptr));
-    SEROSA_ASSIGN(made->continuous, casterOf(made->twist.get()));
+    SEROSA_ASSIGN(made->twisted, casterOf(made->twist.get()));
+    SEROSA_ASSIGN(made->continuous, casterOf(made->whole.get()));
     SEROSA_ASSIGN(made->cut, casterOf(made->knife.get()));
     return made;
 }
@@ -242,21 +257,21 @@ Status benchRaycast(const Options& options, Report& report) {
                   subjectOf({kModels[3].phantom, kModels[3].faces, 0}));
     const Subject& fine = *subjects.back();
     const render::RaycastView view = fine.view(1);
-    add("few faces", *coarse->continuous, view, {});
-    add("many faces", *fine.continuous, view, {});
+    add("few faces", *coarse->twisted, view, {});
+    add("many faces", *fine.twisted, view, {});
 
     report.heading("Deformation shader, " + std::to_string(kPictureSize) + " x " +
                    std::to_string(kPictureSize));
-    SEROSA_ASSIGN(const double step, linearStep(*fine.continuous, view, fine.field->grid().step, report));
+    SEROSA_ASSIGN(const double step, linearStep(*fine.twisted, view, fine.field->grid().step, report));
     render::RaycastLook linear;
     linear.search = render::Search::linear;
     linear.skipField = linear.skipCut = false;
     linear.step = step;
-    add("linear", *fine.continuous, view, linear);
-    add("adaptive", *fine.continuous, view, {});
+    add("linear", *fine.twisted, view, linear);
+    add("adaptive", *fine.twisted, view, {});
     add("plain", *fine.plain, view, {});
     linear.step = render::RaycastLook().step;
-    add("linear, default step", *fine.continuous, view, linear);
+    add("linear, default step", *fine.twisted, view, linear);
     add("plain, linear", *fine.plain, view, linear);
     rounds.measure(options.rounds, options.seconds);
     SEROSA_TRY(status);
