@@ -19,9 +19,9 @@ constexpr double kBeside = 1.02;      // radii that a probe begins beside the su
 
 } // namespace
 
-Hands::Hands(double spacing, double size, double young)
+Hands::Hands(double spacing, double size, double young, double fastest)
     : paths_{std::make_shared<sim::LiveTool>(), std::make_shared<sim::LiveTool>()},
-      fastest_(kSizesASecond * size) {
+      fastest_(std::min(fastest, kSizesASecond * size)) {
     sim::Tool grasp, probe;
     grasp.name = "hand";
     grasp.mode = sim::ToolMode::grasp;

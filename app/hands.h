@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,8 +22,9 @@ enum class HandKind { grasp, probe };
 class Hands {
 public:
     /// \param spacing of the coarsest lattice, \param size diagonal of the organs' bounds, m.
-    /// \param young of the stiffest tissue, Pa
-    Hands(double spacing, double size, double young);
+    /// \param young of the stiffest tissue, Pa. \param fastest m/s: what the organs' steps bear
+    Hands(double spacing, double size, double young,
+          double fastest = std::numeric_limits<double>::infinity());
 
     /// Both, for a setup that has room for them.
     const std::vector<sim::Tool>& tools() const { return tools_; }

@@ -382,6 +382,10 @@ void describeOrgan(const sim::Organ& organ, const OrganParts& parts, const Organ
     out << organ.name << ": " << grouped(parts.surface.file.positions.size()) << " vertices, "
         << grouped(parts.surface.file.faces.size()) << " faces\n";
     printRepair(parts.surface, out);
+    if (parts.surface.metres.faces.size() > parts.surface.file.faces.size())
+        out << "surface: edges longer than the lattice's spacing are split to bend and part with it: "
+            << grouped(parts.surface.metres.positions.size()) << " vertices, "
+            << grouped(parts.surface.metres.faces.size()) << " faces are drawn; files keep the model's\n";
     out << "lattice: " << grouped(parts.lattice.nodeCount()) << " nodes, "
         << grouped(parts.lattice.cells.size()) << " cells, spacing "
         << shortNumber(1e3 * parts.lattice.spacing) << " mm\n";

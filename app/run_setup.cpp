@@ -7,9 +7,11 @@
 #include "app/solver_choice.h"
 #include "app/tool_entry.h"
 #include "shaders/shared_constants.h"
+#include "sim/split_edges.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace serosa::app {
 
@@ -91,6 +93,8 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
     SEROSA_ASSIGN(parts.lattice, organLattice(organ, parts.surface.metres, scene.file));
     if (scene.look.colour == sim::SurfaceColour::material)
         parts.surface.metres.colours = materialColours(parts.lattice, parts.surface.metres);
+    // A level of detail has the surface of its organ, which the finest lattice has split.
+    sim::splitLongEdges(parts.surface.metres, parts.lattice.spacing);
     parts.setup.lattice = &parts.lattice;
     parts.setup.tissue = organ.tissue;
     parts.setup.gravity = scene.gravity;
@@ -110,14 +114,17 @@ Status prepareOrgan(const sim::Scene& scene, const sim::Organ& organ, OrganParts
 /// Where something is simulated and the solvers have room for them.
 void addHands(RunParts& parts) {
     sim::Scene& scene = parts.scene;
-    double spacing = 0, young = 0;
+    double spacing = 0, young = 0, fastest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         if (!scene.organs[i].pose) {
             spacing = std::max(spacing, parts.organs[i]->lattice.spacing);
             for (std::size_t m = 0; m < scene.organs[i].tissue.materialCount(); ++m)
                 young = std::max(young, scene.organs[i].tissue.material(m).young);
+            if (scene.organs[i].method == sim::StepMethod::implicit)
+                fastest = std::min(fastest, sim::implicitToolSpeed(parts.organs[i]->lattice.spacing,
+                                                                   parts.organs[i]->step.timeStep));
         }
-    Hands hands(spacing, glm::distance(parts.lowest(), parts.highest()), young);
+    Hands hands(spacing, glm::distance(parts.lowest(), parts.highest()), young, fastest);
     const std::size_t tools = scene.tools.size() + hands.tools().size();
     if (spacing == 0 || tools > SRS_MAX_TOOLS || tools + scene.bodies.size() > SRS_MAX_COLLIDERS)
         return;

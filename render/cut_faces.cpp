@@ -39,7 +39,7 @@ std::vector<bool> facesLeft(const sim::Lattice& lattice, const std::vector<glm::
             for (std::size_t j = 0; j < i && left[f]; ++j)
                 left[f] =
                     labels[nodes[i]] == labels[nodes[j]] &&
-                    (!touched || (!sides.parted(nodes[i], nodes[j]) && sides.together(nodes[i], nodes[j])));
+                    (!touched || (!sides.parted(nodes[i], nodes[j]) && !sides.separated(nodes[i], nodes[j])));
     }
     return left;
 }

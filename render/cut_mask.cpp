@@ -131,7 +131,7 @@ void CutMask::paint(const sim::StateTextures& state, const sim::Lattice& lattice
         if (glm::length(normal) > 0)
             lastNormal_ = facing_ * normal;
     }
-    const float around = float(SRS_MASK_REACH) + (blade ? 0.0F : local.size);
+    const float around = float(SRS_MASK_SIDES) + (blade ? 0.0F : local.size);
 
     const std::array<std::uint32_t, 4> none = {0, 1, 1, 0};
     list_.upload(0, sizeof none, none.data());

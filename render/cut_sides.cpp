@@ -58,28 +58,37 @@ bool CutSides::isWhole(const glm::uvec3& nodes) const {
     return !parted(nodes.x, nodes.y) && !parted(nodes.y, nodes.z) && !parted(nodes.z, nodes.x);
 }
 
-bool CutSides::together(std::uint32_t a, std::uint32_t b) {
+bool CutSides::joined(Around& around, const std::vector<std::uint32_t>& connections, std::uint32_t a,
+                      std::uint32_t b) const {
     if (a == b)
         return true;
-    auto [it, fresh] = around_.try_emplace(a);
-    std::vector<std::uint32_t>& around = it->second;
+    const auto [it, fresh] = around.try_emplace(a);
+    std::vector<std::uint32_t>& nodes = it->second;
     if (fresh) {
-        around = {a};
+        nodes = {a};
         std::size_t begin = 0;
         for (int step = 0; step < kTogetherSprings; ++step) {
-            const std::size_t end = around.size();
+            const std::size_t end = nodes.size();
             for (std::size_t i = begin; i < end; ++i)
                 for (int d = 0; d < 18; ++d)
-                    if ((connections_[around[i]] >> d) & 1U)
-                        around.push_back(std::uint32_t(lattice_.neighbour(around[i], d)));
-            std::sort(around.begin() + std::ptrdiff_t(end), around.end());
-            around.erase(std::unique(around.begin() + std::ptrdiff_t(end), around.end()), around.end());
+                    if ((connections[nodes[i]] >> d) & 1U)
+                        nodes.push_back(std::uint32_t(lattice_.neighbour(nodes[i], d)));
+            std::sort(nodes.begin() + std::ptrdiff_t(end), nodes.end());
+            nodes.erase(std::unique(nodes.begin() + std::ptrdiff_t(end), nodes.end()), nodes.end());
             begin = end;
         }
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     }
-    return std::binary_search(around.begin(), around.end(), b);
+    return std::binary_search(nodes.begin(), nodes.end(), b);
+}
+
+bool CutSides::together(std::uint32_t a, std::uint32_t b) {
+    return joined(around_, connections_, a, b);
+}
+
+bool CutSides::separated(std::uint32_t a, std::uint32_t b) {
+    return !together(a, b) && joined(aroundBefore_, lattice_.connections, a, b);
 }
 
 void followOwnSides(SurfaceBinding& binding, const sim::Lattice& lattice,

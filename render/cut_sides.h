@@ -27,12 +27,20 @@ public:
     /// Are two nodes joined through at most four springs that are left? Around the end of a cut, where it
     /// gapes little, its sides are.
     bool together(std::uint32_t a, std::uint32_t b);
+    /// Were two nodes together before the cut, and are they no longer? The corners of a face that is larger
+    /// than four springs never were.
+    bool separated(std::uint32_t a, std::uint32_t b);
 
 private:
+    /// By node: those within four springs of it, sorted.
+    using Around = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+    bool joined(Around& around, const std::vector<std::uint32_t>& connections, std::uint32_t a,
+                std::uint32_t b) const;
+
     const sim::Lattice& lattice_;
     const std::vector<std::uint32_t>& connections_;
     std::vector<bool> near_;
-    std::map<std::uint32_t, std::vector<std::uint32_t>> around_; // nodes within four springs, sorted
+    Around around_, aroundBefore_;
 };
 
 /// Vertices whose triangle is cut through follow from now on the closest whole triangle that faces the same

@@ -8,9 +8,9 @@ vec4 cutMask(vec3 rest) {
     return texture(t_cutMask, u_maskScale * (rest - u_maskFrom));
 }
 
-/// \param side of the cut that the triangle follows: 1, -1; 0: both
+/// \param side of the cut that the triangle follows: 1, -1; 0: both. Where no cut is near, none is another's.
 bool isCut(vec4 mask, float side) {
-    return mask.a < 0.5 || (mask.g - 0.5) * side < 0.0;
+    return mask.a < 0.5 || (mask.b < 0.5 + 0.5 * SRS_MASK_PAINTED && (mask.g - 0.5) * side < 0.0);
 }
 
 /// Of the nearest cut, spacings: positive on its one side, negative on the other. Only where a cut is near.

@@ -16,6 +16,6 @@ void main() {
     if (node >= uint(u_nodeCount))
         return;
     vec2 d = strokeDistance(nodePosition(texels[node]));
-    if (d.x < 1.5 * SRS_MASK_REACH && d.x < abs(sides[node]))
+    if (d.x < SRS_MASK_SIDES && d.x < abs(sides[node]))
         sides[node] = d.y;
 }

@@ -40,7 +40,7 @@ uint word(vec2 d) {
     float reach = 1.0 / SRS_MASK_REACH;
     bool burnt = u_kind == SRS_STROKE_CAUTERIZE;
     uint side = burnt ? 0xffffu : uint(round(65535.0 * clamp(0.5 + 0.5 * reach * d.y, 0.0, 1.0)));
-    vec4 rest = vec4(0.0, 0.0, burnt ? 1.0 : reach * d.x, mask);
+    vec4 rest = vec4(0.0, 0.0, burnt ? 1.0 : min(reach * d.x, SRS_MASK_PAINTED), mask);
     return packUnorm4x8(rest) | (side >> 8 & 0xffu) << 8 | side & 0xffu;
 }
 
@@ -60,7 +60,7 @@ void paint(MaskCell cell, ivec3 lowest) {
             known = before.z < 1.0 ? before.y - 0.5 : 0.0;
         }
         vec2 d = strokeDistance(u_origin + vec3(lowest) + at + displacement(at, known));
-        if (d.x < SRS_MASK_REACH)
+        if (d.x < SRS_MASK_SIDES)
             imageAtomicMin(i_mask, voxel, word(d));
     }
 }

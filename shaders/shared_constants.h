@@ -129,10 +129,12 @@
 #define SRS_BLEND_STEP 0.08         // of the finest level's spacing
 
 // The mask that strokes leave in rest space (render/cut_mask.h)
-#define SRS_MASK_REACH 2.0 // spacings: how far from a cut its distance and side are known
+#define SRS_MASK_REACH 2.0 // spacings: how far from a cut its distance is known
+#define SRS_MASK_SIDES 3.0 // and how far its side
 #define SRS_MASK_WIDTH 0.9 // voxels: half the width of what a blade takes away
 #define SRS_MASK_GROUP 64  // invocations that paint a cell
 #define SRS_MASK_FAR 1.0e9 // a node that no blade came near
+#define SRS_MASK_PAINTED (254.0 / 255.0) // the distance's largest byte: what has none, has no side
 #define SRS_MASK_KEPT 0xffffffffu
 
 // Nodes as one side of the cuts carries them (render/side_nodes.h): alpha, spacings.

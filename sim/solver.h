@@ -204,5 +204,7 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
 /// it than its force at the step's end can say.
 int implicitStepsPerFrame(const std::vector<Tool>& tools, double spacing, double frameTime);
 constexpr int kMostImplicitSteps = 32;
+/// Of a tool that a user moves, m/s: half a spacing (m) in an implicit step of `timeStep` seconds.
+double implicitToolSpeed(double spacing, double timeStep);
 
 } // namespace serosa::sim

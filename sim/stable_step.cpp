@@ -227,6 +227,10 @@ StableStep stableStep(const Lattice& lattice, const Tissue& tissue, double frame
     return step;
 }
 
+double implicitToolSpeed(double spacing, double timeStep) {
+    return kImplicitWay * spacing / timeStep;
+}
+
 int implicitStepsPerFrame(const std::vector<Tool>& tools, double spacing, double frameTime) {
     double farthest = 0; // m in a frame, of any point of a tool
     for (const Tool& tool : tools)

@@ -43,18 +43,20 @@ double TriangleMesh::area() const {
 }
 
 std::vector<glm::dvec3> TriangleMesh::vertexNormals() const {
-    std::vector<glm::dvec3> normals(positions.size(), glm::dvec3(0));
+    if (!normals.empty())
+        return normals;
+    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0));
     for (const auto& face : faces) {
         const glm::dvec3& a = positions[face.x];
         const glm::dvec3 twiceArea = glm::cross(positions[face.y] - a, positions[face.z] - a);
         for (int corner = 0; corner < 3; ++corner)
-            normals[face[corner]] += twiceArea;
+            sums[face[corner]] += twiceArea;
     }
-    for (auto& normal : normals) {
+    for (auto& normal : sums) {
         const double length = glm::length(normal);
         normal = length > 0 ? normal / length : glm::dvec3(0, 1, 0);
     }
-    return normals;
+    return sums;
 }
 
 } // namespace serosa::sim

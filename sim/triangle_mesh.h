@@ -16,6 +16,8 @@ struct TriangleMesh {
     std::vector<glm::u8vec3> colours; // sRGB, one a vertex, or empty
     std::vector<glm::vec2> uvs; // texture coordinates, three a face in the order of its corners, or empty
 
+    std::vector<glm::dvec3> normals; // unit, one a vertex, or empty: as the faces have them
+
     /// Bounds of all positions; both zero for an empty mesh.
     glm::dvec3 lowest() const;
     glm::dvec3 highest() const;
@@ -23,7 +25,7 @@ struct TriangleMesh {
     double volume() const;
     /// Surface area, square units of the positions.
     double area() const;
-    /// Area-weighted unit normals, one a vertex; (0, 1, 0) where undefined.
+    /// Those that the mesh has, or area-weighted unit normals, one a vertex; (0, 1, 0) where undefined.
     std::vector<glm::dvec3> vertexNormals() const;
 };
 

@@ -56,6 +56,17 @@ TEST(Hands, FollowTheirTargetNoFasterThanTheyMay) {
     EXPECT_FALSE(probe.activeAt(2));
 }
 
+TEST(Hands, AreNoFasterThanImplicitStepsBear) {
+    const double speed = sim::implicitToolSpeed(0.004, 1.0 / 60);
+    EXPECT_DOUBLE_EQ(speed, 0.12);
+    Hands hands(0.004, 0.2, 5000, speed);
+    hands.begin(HandKind::probe, 0, {0, 0, 0}, {0, 0, 1});
+    const glm::dvec3 from = hands.tools()[1].poseAt(0).at;
+    hands.moveTo({50, 0, 0});
+    hands.sample(1.0 / 60);
+    EXPECT_NEAR(glm::distance(hands.tools()[1].poseAt(1.0 / 60).at, from), 0.002, 1e-12);
+}
+
 // A hand pulls the top of a block up and lets go: the block follows, and swings back.
 TEST(Hands, PullABlock) {
     sim::LatticeRequest request;

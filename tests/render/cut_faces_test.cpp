@@ -120,6 +120,28 @@ TEST(CutFacesDrawn, NoFaceIsStretchedOverACutThatGapes) {
     }
 }
 
+TEST(CutFacesDrawn, facesLargerThanTheLatticeStayBesideACut) {
+    const CutEllipsoid body(-0.02, 1); // corners of a face are up to eight springs from each other
+    const std::vector<bool> left =
+        render::facesLeft(body.lattice, body.mesh.faces, body.binding, body.connections);
+    std::size_t beside = 0;
+    for (std::size_t f = 0; f < left.size(); ++f) {
+        double low = 1, high = -1;
+        for (int i = 0; i < 3; ++i) {
+            low = std::min(low, body.mesh.positions[body.mesh.faces[f][i]].x);
+            high = std::max(high, body.mesh.positions[body.mesh.faces[f][i]].x);
+        }
+        const double h = body.lattice.spacing;
+        if (low < body.x - h / 2 && high > body.x + h / 2) {
+            EXPECT_FALSE(left[f]) << f;
+        } else if (low > body.x + 1.5 * h || high < body.x - 1.5 * h) {
+            EXPECT_TRUE(left[f]) << f;
+            ++beside;
+        }
+    }
+    EXPECT_GT(beside, 20U);
+}
+
 TEST(CutFacesDrawn, noFaceSpansACut) {
     for (const double lowestY : {-0.02, 0.0}) { // all through, and half
         const CutEllipsoid body(lowestY);
