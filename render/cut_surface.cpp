@@ -15,7 +15,8 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kSearch = 3; // spacings
+constexpr int kSearch = 3;    // spacings
+constexpr int kSideReach = 2; // grid steps: kReach of shaders/side_nodes.comp
 
 /// Boundary triangles whose nodes all lie on one side of the cuts near by, by the grid cell of their first
 /// node.
@@ -113,6 +114,54 @@ bool liesOn(const VertexBinding& vertex, const std::vector<std::uint32_t>& conne
     return true;
 }
 
+/// Which nodes have a place on a side: what shaders/side_nodes.comp does not leave where they are.
+class SidePlaces {
+public:
+    SidePlaces(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections,
+               const std::vector<float>& sides)
+        : lattice_(lattice), connections_(connections), sides_(sides) {}
+
+    bool hasAll(const glm::uvec3& nodes, int side) const {
+        return has(nodes.x, side) && has(nodes.y, side) && has(nodes.z, side);
+    }
+
+private:
+    bool isFar(std::size_t node) const { return std::abs(sides_[node]) >= float(SRS_MASK_FAR); }
+    bool isOn(std::size_t node, int side) const { return !isFar(node) && (sides_[node] >= 0) == (side > 0); }
+    /// Had a node springs to the side?
+    bool touches(std::size_t node, int side) const {
+        for (int d = 0; d < 18; ++d)
+            if (const std::int64_t other = lattice_.neighbour(node, d);
+                other >= 0 && isOn(std::size_t(other), side))
+                return true;
+        return false;
+    }
+    bool has(std::size_t node, int side) const {
+        const bool loose = connections_[node] == 0;
+        if (!loose && (isFar(node) || isOn(node, side)))
+            return true;
+        bool joined = loose || touches(node, side);
+        for (int d = 0; d < 6 && !joined; ++d)
+            if (const std::int64_t other = lattice_.neighbour(node, d);
+                other >= 0 && isOn(std::size_t(other), -side))
+                joined = touches(std::size_t(other), side);
+        const glm::ivec3 at = lattice_.nodes[node];
+        for (int z = -kSideReach; z <= kSideReach && joined; ++z)
+            for (int y = -kSideReach; y <= kSideReach; ++y)
+                for (int x = -kSideReach; x <= kSideReach; ++x) {
+                    const std::int64_t other = lattice_.nodeAt(at + glm::ivec3(x, y, z));
+                    if (other >= 0 && connections_[std::size_t(other)] != 0 &&
+                        (isFar(std::size_t(other)) || isOn(std::size_t(other), side)))
+                        return true;
+                }
+        return false;
+    }
+
+    const sim::Lattice& lattice_;
+    const std::vector<std::uint32_t>& connections_;
+    const std::vector<float>& sides_;
+};
+
 /// Are all nodes of a vertex still held, and no spring between two of them cut?
 bool isHeld(const CutSides& cut, const glm::uvec3& nodes) {
     return !cut.isLoose(nodes.x) && !cut.isLoose(nodes.y) && !cut.isLoose(nodes.z) && cut.isWhole(nodes);
@@ -121,8 +170,8 @@ bool isHeld(const CutSides& cut, const glm::uvec3& nodes) {
 } // namespace
 
 CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                      const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections,
-                      const std::vector<float>& sides) {
+                      const SurfaceBinding& uncut, const SurfaceBinding& binding,
+                      const std::vector<std::uint32_t>& connections, const std::vector<float>& sides) {
     CutSurface surface;
     surface.whole = facesLeft(lattice, metres.faces, binding, connections);
     if (sides.empty())
@@ -140,27 +189,33 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
         near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
                          inCells ? nullptr : &binding.vertices[v].nodes);
 
+    const bool bySides = binding.mapping != sim::Mapping::nodeFrames;
+    const SidePlaces places(lattice, connections, sides);
     std::map<std::pair<std::uint32_t, int>, std::int64_t> copyOf; // -1: that side cannot carry the vertex
     const auto copy = [&](std::uint32_t v, int side) {
         const auto [found, fresh] = copyOf.try_emplace({v, side}, -1);
         if (!fresh)
             return found->second;
-        const VertexBinding& own = binding.vertices[v];
-        // Beside faces that are drawn whole a vertex stays as it is, unless it belongs to the other side.
-        if (inCells || liesOn(own, connections, sides, side) ||
-            (near[v] != 7 && isHeld(held, own.nodes) && !liesOn(own, connections, sides, -side))) {
+        const VertexBinding &own = binding.vertices[v], &before = uncut.vertices[v];
+        const auto add = [&](std::optional<VertexBinding> bound) {
             found->second = std::int64_t(surface.vertices.size());
-            surface.vertices.push_back({v, side, {}});
+            surface.vertices.push_back({v, side, bound});
             return found->second;
-        }
+        };
+        const bool lies = liesOn(own, connections, sides, side);
+        // Beside faces that are drawn whole a vertex stays as it is, unless it belongs to the other side.
+        if (inCells || (lies && (!bySides || own.nodes == before.nodes)) ||
+            (near[v] != 7 && isHeld(held, own.nodes) && !liesOn(own, connections, sides, -side)))
+            return add({});
         const glm::dvec3 place = lattice.toLattice(metres.positions[v]);
+        if (bySides && places.hasAll(before.nodes, side))
+            return add(bindVertex(nodes, before.nodes, glm::dvec3(before.weights), place, normals[v]));
+        if (lies)
+            return add({});
         glm::dvec3 weights(0);
         const std::int64_t t = triangles[side > 0].closest(place, normals[v], weights);
-        if (t >= 0) {
-            found->second = std::int64_t(surface.vertices.size());
-            surface.vertices.push_back(
-                {v, side, bindVertex(nodes, lattice.boundary[std::size_t(t)], weights, place, normals[v])});
-        }
+        if (t >= 0)
+            return add(bindVertex(nodes, lattice.boundary[std::size_t(t)], weights, place, normals[v]));
         return found->second;
     };
     for (std::size_t f = 0; f < metres.faces.size(); ++f) {

@@ -1,8 +1,10 @@
 #pragma once
 // The detailed surface along cuts that a mask knows (render/cut_mask.h): a face that a cut crosses is drawn
-// once for each side, all of its vertices carried by nodes of that side alone, and the mask takes from each
-// copy what lies on the other side or in the cut. So nothing is stretched across a gap, and the lips are as
-// smooth as the mask.
+// once for each side, all of its vertices carried by that side alone, and the mask takes from each copy what
+// lies on the other side or in the cut. So nothing is stretched across a gap, and the lips are as smooth as
+// the mask. A copy keeps its triangle, whose nodes lie where its side has them (render/side_nodes.h): so a
+// lip is as smooth as what it was cut from. Node frames know no sides: there, and where the side is too far
+// to say, a copy follows the nearest triangle of its side.
 
 #include "render/surface_binding.h"
 #include "sim/lattice.h"
@@ -29,11 +31,12 @@ struct CutSurface {
     std::vector<std::uint32_t> copied; // the mesh face of each
 };
 
-/// \param connections 18 bits a node. \param sides signed distances of the nodes to the nearest cut, spacings
-/// (CutMask::nodeSides), or empty: no blade cut, and faces that springs no longer hold are left out (as
-/// facesLeft). A face is left out on a side where no boundary triangle within 3 spacings is all on that side.
+/// \param uncut as it was bound without cuts. \param connections 18 bits a node. \param sides signed
+/// distances of the nodes to the nearest cut, spacings (CutMask::nodeSides), or empty: no blade cut, and
+/// faces that springs no longer hold are left out (as facesLeft). A face is left out on a side where no
+/// boundary triangle within 3 spacings is all on that side.
 CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                      const SurfaceBinding& binding, const std::vector<std::uint32_t>& connections,
-                      const std::vector<float>& sides);
+                      const SurfaceBinding& uncut, const SurfaceBinding& binding,
+                      const std::vector<std::uint32_t>& connections, const std::vector<float>& sides);
 
 } // namespace serosa::render

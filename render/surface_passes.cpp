@@ -82,6 +82,10 @@ bool isMapped(SurfaceStage stage) {
 
 } // namespace
 
+bool readsSideNodes(SurfaceStage stage) {
+    return isMapped(stage) && stage != SurfaceStage::nodeFrames;
+}
+
 SurfaceStage stageOf(sim::Mapping mapping) {
     switch (mapping) {
     case sim::Mapping::oneToOne:
@@ -284,14 +288,14 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
     program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::inCells)
         program.texture("t_cells", cells_);
-    if (stage == SurfaceStage::inCells && sideNodes_)
+    if (sideNodes_ && readsSideNodes(stage))
         program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
     if (stage == SurfaceStage::nodeFrames)
         program.texture("t_frames", frames_->frames());
 }
 
 void SurfacePasses::follow(const sim::StateTextures& state, SurfaceStage stage) {
-    if (stage == SurfaceStage::inCells && sideNodes_)
+    if (sideNodes_ && readsSideNodes(stage))
         sideNodes_->update(state, *mask_);
     if (stage == SurfaceStage::nodeFrames)
         frames_->run(state.positions());

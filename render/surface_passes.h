@@ -32,6 +32,8 @@ enum class SurfaceStage { undeformed, nodes, constant, corrected, chosen, alongN
 
 /// The stage that draws a mapping.
 SurfaceStage stageOf(sim::Mapping mapping);
+/// Do copies along a cut find their nodes where their side has them (shaders/side_node.glsl)?
+bool readsSideNodes(SurfaceStage stage);
 
 /// Square root of the linear colour of each vertex, and the light of the surround that arrives there.
 /// \param bare linear colour of a mesh without colours; null: flesh
@@ -229,7 +231,7 @@ private:
     gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     RestBox restBox_;
     std::optional<CutMask> mask_;
-    std::optional<SideNodes> sideNodes_; // of stage inCells, where there is a mask
+    std::optional<SideNodes> sideNodes_; // where there is a mask and a stage that reads them
     std::optional<StageBox> box_;
     glm::dvec3 origin_{0}; // m: of lattice units,
     double unit_ = 1;      // and their size

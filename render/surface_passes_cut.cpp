@@ -5,6 +5,7 @@
 #include "render/surface_passes.h"
 #include "shaders/shared_constants.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -13,7 +14,8 @@ namespace serosa::render {
 Status SurfacePasses::openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
     SEROSA_ASSIGN(CutMask mask, CutMask::create(lattice, layout));
     mask_.emplace(std::move(mask));
-    if (draws(SurfaceStage::inCells)) {
+    const std::vector<SurfaceStage> stages = mappedStages();
+    if (std::any_of(stages.begin(), stages.end(), readsSideNodes)) {
         SEROSA_ASSIGN(SideNodes nodes, SideNodes::create(lattice, layout));
         sideNodes_.emplace(std::move(nodes));
     }

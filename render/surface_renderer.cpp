@@ -374,7 +374,7 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
         if (drawn != binding.mapping && surface.draws(stageOf(drawn))) // sides are chosen already
             rebound.push_back(expressBinding(rebound.front(), lattice, metres, drawn, connections));
     const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
-    const CutSurface cut = cutSurface(lattice, metres, rebound.front(), connections, sides);
+    const CutSurface cut = cutSurface(lattice, metres, binding, rebound.front(), connections, sides);
     const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
     impl_->target.bind();
     if (!fades)

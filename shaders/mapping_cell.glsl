@@ -6,21 +6,11 @@ layout(location = 2) in vec3 a_offset; // from the cell's lowest corner, 0 .. 1
 
 uniform usampler2D t_cells; // two texels a cell: texels y << 16 | x of its corners (at +x if c & 1, +y if c & 2, +z if c & 4)
 
-#ifdef SURFACE_CUT // by the nodes as the side of the cut carries them (render/side_nodes.h): the map that is ray-cast
-#include "surface_rest.glsl"
-uniform sampler2D t_above, t_below;
+#include "side_node.glsl"
 
 vec3 cornerAt(uint texel) {
-    float side = vertexSide();
-    ivec2 at = ivec2(texel & 0xffffu, texel >> 16);
-    vec4 carried = side > 0.0 ? texelFetch(t_above, at, 0) : texelFetch(t_below, at, 0);
-    return side == 0.0 || carried.w == SRS_SIDE_NONE ? fetchNode(texel).xyz : carried.xyz;
+    return followedNode(texel).xyz;
 }
-#else
-vec3 cornerAt(uint texel) {
-    return fetchNode(texel).xyz;
-}
-#endif
 
 Mapped mapVertex() {
     ivec2 at = ivec2(2u * a_cell & (SRS_TABLE_WIDTH - 1u), 2u * a_cell / SRS_TABLE_WIDTH);

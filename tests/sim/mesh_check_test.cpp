@@ -83,7 +83,7 @@ TEST(MeshCheck, UnusedVerticesPass) {
 }
 
 TEST(MeshCheck, RefusesNoFaces) {
-    expectRefused({{{0, 0, 0}}, {}, {}, {}}, {"no triangles"});
+    expectRefused({{{0, 0, 0}}, {}, {}, {}, {}}, {"no triangles"});
 }
 
 TEST(MeshCheck, RefusesAnOpenSurface) {
@@ -173,9 +173,9 @@ TEST(MeshCheck, RefusesWhatIsNotFinite) {
 
 TEST(MeshCheck, RefusesAFlatFold) {
     // Two triangles back to back: closed, manifold edges, no inside; and a flattened cube.
-    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}, {}},
+    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}, {}, {}, {}},
                   {"same three vertices"});
-    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 0}}, tetrahedron().faces, {}, {}},
+    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 0}}, tetrahedron().faces, {}, {}, {}},
                   {"no volume"});
 }
 
@@ -225,7 +225,7 @@ TEST(MeshCrossings, CountsPairsThatMeet) {
     // A needle through a plate: its three sides cross the two triangles of the plate's lower and upper face.
     const TriangleMesh plate = box({-10, -10, -1}, {10, 10, 1});
     const TriangleMesh needle{
-        {{1, 2, -5}, {1.5, 2, -5}, {1, 2.5, -5}, {1.1, 2.1, 5}}, tetrahedron().faces, {}, {}};
+        {{1, 2, -5}, {1.5, 2, -5}, {1, 2.5, -5}, {1.1, 2.1, 5}}, tetrahedron().faces, {}, {}, {}};
     EXPECT_EQ(countCrossings(joined(plate, needle)), 6u); // the needle stays on one side of both diagonals
     EXPECT_EQ(countCrossings(joined(plate, moved(needle, {20, 0, 0}))), 0u);
     EXPECT_EQ(countCrossings(joined(plate, moved(scaled(needle, 0.1), {0, 0, 1.6}))), 0u);
@@ -235,14 +235,15 @@ TEST(MeshCrossings, NeighboursCountOnlyBeyondWhatTheyShare) {
     // A fan of two triangles that share one corner, and one of them pierced by the other's far side.
     EXPECT_EQ(
         countCrossings(
-            {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 1}, {-1, 1, 1}}, {{0, 1, 2}, {0, 3, 4}}, {}, {}}),
+            {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 1}, {-1, 1, 1}}, {{0, 1, 2}, {0, 3, 4}}, {}, {}, {}}),
         0u);
-    EXPECT_EQ(countCrossings(
-                  {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}}, {{0, 1, 2}, {0, 3, 4}}, {}, {}}),
-              1u);
+    EXPECT_EQ(
+        countCrossings(
+            {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}}, {{0, 1, 2}, {0, 3, 4}}, {}, {}, {}}),
+        1u);
     // A shared edge: a hinge, flat, and folded onto itself.
     const auto hinge = [](glm::dvec3 tip) {
-        return countCrossings({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, tip}, {{0, 1, 2}, {1, 0, 3}}, {}, {}});
+        return countCrossings({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, tip}, {{0, 1, 2}, {1, 0, 3}}, {}, {}, {}});
     };
     EXPECT_EQ(hinge({0, 1, 0.001}), 0u);
     EXPECT_EQ(hinge({0, -1, 0}), 0u);

@@ -412,7 +412,7 @@ TEST_F(MeshRepair, RefusesWhatItDoesNotName) {
     expectRefused(joined(cube(1), moved(cube(1), {5, 0, 0})), "several solids");
     expectRefused(joined(joined(cube(3), inverted(cube(2))), cube(1)), "several solids");
     expectRefused(scaled(cube(1), 1e20), "absurd size");
-    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}}, {}, {}}, "repeated corner");
+    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}}, {}, {}, {}}, "repeated corner");
 
     TriangleMesh sliver = cube(1); // a vertex in the middle of an edge makes a face without area
     const glm::uvec3 cut = sliver.faces[0];
@@ -453,7 +453,7 @@ TEST_F(MeshRepair, RefusesASeam) {
 }
 
 TEST_F(MeshRepair, RefusesALoneTriangle) {
-    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}}, "a hole of 3 edges");
+    expectRefused({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {}, {}, {}}, "a hole of 3 edges");
     TriangleMesh island = joined(cube(100), moved(scaled(tetrahedron(), 1), {200, 0, 0}));
     island.faces.resize(13); // the cube and one face of the tetrahedron
     expectRefused(island, "without touching");

@@ -27,8 +27,11 @@ inline TriangleMesh cube(double half) {
 
 /// A tetrahedron of volume 1/6, wound outward.
 inline TriangleMesh tetrahedron() {
-    return {
-        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}, {}};
+    return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
+            {},
+            {},
+            {}};
 }
 
 inline TriangleMesh inverted(TriangleMesh mesh) {

@@ -117,7 +117,7 @@ TEST_F(MeshWriter, RefusesWhatItCannotWrite) {
     expectRefused(mesh, folder_ / "a.vtk", "use .ply, .obj, .off or .stl");
     expectRefused(mesh, folder_ / "a", "unknown extension ''");
     expectRefused(mesh, folder_ / "no_such" / "a.ply", "make the folder first");
-    expectRefused({mesh.positions, {}, {}, {}}, folder_ / "a.ply", "no triangles");
+    expectRefused({mesh.positions, {}, {}, {}, {}}, folder_ / "a.ply", "no triangles");
     TriangleMesh broken = mesh;
     broken.positions[2].z = std::numeric_limits<double>::quiet_NaN();
     expectRefused(broken, folder_ / "a.ply", "vertex 2 (from 0) has a coordinate that is not finite");

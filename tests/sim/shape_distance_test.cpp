@@ -181,6 +181,7 @@ TEST(DeepestPoint, isTheLeastOfAllPointsOfATriangle) {
         {"tetrahedron", meshShape({{{-0.01, -0.01, -0.01}, {0.02, 0, 0}, {0, 0.02, 0}, {0, 0, 0.02}},
                                    {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}},
                                    {},
+                                   {},
                                    {}},
                                   100)});
     for (const auto& [name, shape] : shapes) {
