@@ -7,9 +7,15 @@
 #ifndef RAYCAST_PROBE
 #include "tissue_light.glsl"
 #include "flesh.glsl"
+#ifdef RAYCAST_VOLUME
+#include "cut_volume.glsl"
+#endif
 #endif
 #include "raycast_box.glsl"
 
+#ifdef RAYCAST_SAMPLES
+sample // a ray for each
+#endif
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
@@ -33,6 +39,7 @@ out vec4 o_colour;
 
 #ifndef RAYCAST_PROBE
 const float kInnerOpen = 0.8; // of the surround, in a cut
+const float kVolumeRoughness = 0.42;
 
 /// Linear colour outside at rest, and light of the surround that arrives.
 vec4 skinAt(vec3 rest) {
@@ -94,6 +101,13 @@ void main() {
         Flesh flesh = fleshAt(hit.rest, u_flesh);
         tissue.albedo = flesh.albedo;
         tissue.roughness = flesh.roughness;
+#ifdef RAYCAST_VOLUME
+        vec4 volume = cutVolumeAt(hit.rest);
+        if (volume.w > 0.5) {
+            tissue.albedo = volume.rgb;
+            tissue.roughness = kVolumeRoughness;
+        }
+#endif
     }
     o_colour = vec4(tissueLight(tissue, v), 1.0);
 #ifdef RAYCAST_STAGE
