@@ -13,9 +13,6 @@
 #endif
 #include "raycast_box.glsl"
 
-#ifdef RAYCAST_SAMPLES
-sample // a ray for each
-#endif
 in vec3 v_position; // object space, lattice units: on the far side of the box
 
 uniform mat4 u_clipFromLattice;
@@ -61,9 +58,14 @@ vec2 slab(vec3 from, vec3 along) {
 }
 
 void main() {
-    vec3 along = u_eye.w > 0.0 ? normalize(v_position - u_eye.xyz) : -u_eye.xyz;
+#ifdef RAYCAST_SAMPLES
+    vec3 position = interpolateAtSample(v_position, gl_SampleID); // a ray for each
+#else
+    vec3 position = v_position;
+#endif
+    vec3 along = u_eye.w > 0.0 ? normalize(position - u_eye.xyz) : -u_eye.xyz;
     along += vec3(equal(along, vec3(0.0))) * 1e-9;
-    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : v_position - length(boxHighest() - boxLowest()) * along;
+    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : position - length(boxHighest() - boxLowest()) * along;
     vec2 range = slab(from, along);
     range.x = max(range.x, 0.0);
     if (range.x >= range.y)
