@@ -28,6 +28,7 @@ struct RunArguments {
     std::optional<std::string> solver;
     int frames = 0;
     std::string upAxis;
+    std::vector<std::string> surfaces;
     std::size_t nodes = 0;
     bool force = false, repair = false, anySolver = false;
 };
@@ -42,12 +43,15 @@ Result<RunOptions> runOptions(const std::string& command, const RunArguments& gi
                          : command + " takes a scene file or --model, not both"};
     if (!given.model.empty() && given.lengthUnit.empty())
         return Error{"--model needs --length-unit: a mesh file has no unit (mm, cm, m, um, in)"};
-    if (given.model.empty() && !given.lengthUnit.empty())
-        return Error{"--length-unit belongs to --model; a scene file says length_unit"};
-    if (given.model.empty() && given.repair)
-        return Error{"--repair belongs to --model; a scene file says repair = true"};
-    if (given.model.empty() && !given.upAxis.empty())
-        return Error{"--up-axis belongs to --model; a scene file says up_axis"};
+    const bool file = !given.model.empty() || !given.surfaces.empty();
+    if (!given.model.empty() && !given.surfaces.empty())
+        return Error{"--surface belongs to a scene file: it stands in for an organ's own surface"};
+    if (!file && !given.lengthUnit.empty())
+        return Error{"--length-unit belongs to --model and --surface; a scene file says length_unit"};
+    if (!file && given.repair)
+        return Error{"--repair belongs to --model and --surface; a scene file says repair = true"};
+    if (!file && !given.upAxis.empty())
+        return Error{"--up-axis belongs to --model and --surface; a scene file says up_axis"};
     options.scene = given.scene;
     options.model = given.model;
     options.lengthUnit = given.lengthUnit;
@@ -56,6 +60,12 @@ Result<RunOptions> runOptions(const std::string& command, const RunArguments& gi
         SEROSA_ASSIGN(const int axis,
                       wordIndex("--up-axis", given.upAxis, sim::findSceneKey("organ", "up_axis")->words));
         options.upAxis = sim::UpAxis(axis);
+        options.surfaces.upAxis = options.upAxis;
+    }
+    options.surfaces.wanted = given.surfaces;
+    options.surfaces.repair = given.repair;
+    if (!given.surfaces.empty() && !given.lengthUnit.empty()) {
+        SEROSA_ASSIGN(options.surfaces.lengthUnit, sim::parseLengthUnit(given.lengthUnit));
     }
     options.from = given.from;
     options.anySolver = given.anySolver;
@@ -105,11 +115,19 @@ void addSceneOptions(CLI::App& command, RunArguments& given) {
             "instead of a scene: a closed surface (OBJ, PLY, OFF, STL, VTK, TetGen) with a default tissue (5 "
             "kPa) and probe")
         ->type_name("FILE");
-    command.add_option("--length-unit", given.lengthUnit, "unit of --model's coordinates: mm, cm, m, um, in")
+    command
+        .add_option("--surface", given.surfaces,
+                    "another closed surface for an organ of the scene, brought to the size and place of its "
+                    "own (with --length-unit: in its own); once for each")
+        ->type_name("ORGAN=FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--length-unit", given.lengthUnit,
+                    "unit of the coordinates of --model or --surface: mm, cm, m, um, in")
         ->type_name("U");
     command
         .add_option("--up-axis", given.upAxis,
-                    "axis of --model that points up: x, y, z, -x, -y, -z (default: y)")
+                    "axis of --model or --surface that points up: x, y, z, -x, -y, -z (default: y)")
         ->type_name("A");
     addRepairFlag(command, given.repair);
     command.add_option("--size", given.size, "size of the pictures in pixels (default: 960x960)")

@@ -1,6 +1,7 @@
 // See app/implicit_organs.h.
 #include "app/implicit_organs.h"
 
+#include "app/vector_image.h"
 #include "base/check.h"
 #include "render/surface_passes.h"
 
@@ -10,7 +11,8 @@ namespace {
 
 constexpr int kMargin = 3;        // voxels around the organ
 constexpr double kWarpVoxels = 2; // a spacing, of the lattice's displacement
-constexpr double kSeam = 4;       // voxels of the field, between mesh and box
+constexpr double kMillimetre = 1e-3;
+constexpr double kSeam = 4; // voxels of the field, between mesh and box
 
 } // namespace
 
@@ -21,8 +23,17 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
         deformation_ = std::make_unique<SceneDeformation>(std::move(made));
     }
     if (deformation_)
-        SEROSA_TRY(deformation_->check(metres));
+        SEROSA_TRY(deformation_->check(organs_.size(), metres));
     stage_ = scene.look.stage;
+    if (scene.look.cutVolume && !cutVolume_) {
+        const std::string at = scene.file.string() + ":" + std::to_string(scene.look.cutVolume->line) + ": ";
+        if (const Status read = readCutVolume(*scene.look.cutVolume); !read.ok())
+            return Error{at + read.error().message};
+        cutVolumeUnmet_ = at + "look.cut_volume: has no effect: it lies outside of every organ: look at `at` "
+                               "and `up_axis`";
+    }
+    if (cutVolume_ && cutVolume_->meets(metres.lowest(), metres.highest()))
+        cutVolumeUnmet_.clear();
     Organ organ;
     const render::VolumeGrid grid =
         render::VolumeGrid::around(metres.lowest(), metres.highest(), scene.look.fieldSamples, kMargin);
@@ -32,6 +43,7 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     organ.field = std::make_unique<render::DistanceVolume>(std::move(field));
     SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, *organ.field));
     organ.caster = std::make_unique<render::Raycaster>(std::move(caster));
+    organ.caster->setCutVolume(cutVolume_.get());
     if (moves) {
         SEROSA_ASSIGN(render::LatticeWarp warp, render::LatticeWarp::create(lattice, layout, kWarpVoxels));
         organ.lattice = std::make_unique<render::LatticeWarp>(std::move(warp));
@@ -41,30 +53,52 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     return {};
 }
 
+Status ImplicitOrgans::readCutVolume(const sim::CutVolume& wanted) {
+    SEROSA_ASSIGN(ScalarVolume read, readScalarVolume(wanted.file));
+    glm::dmat4 worldFromPlace(0); // of mm
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 along(0);
+        along[axis] = kMillimetre;
+        worldFromPlace[axis] = glm::dvec4(sim::worldFromFile(wanted.upAxis, along), 0);
+    }
+    worldFromPlace[3] = glm::dvec4(wanted.at, 1);
+    const render::VoxelValues voxels{read.size, worldFromPlace * read.placeFromVoxel, std::move(read.values)};
+    Result<render::CutVolume> made = wanted.labels.empty()
+                                         ? render::CutVolume::grey(voxels, wanted.level, wanted.width)
+                                         : render::CutVolume::labels(voxels, wanted.labels);
+    if (!made.ok())
+        return Error{wanted.file.string() + ": " + made.error().message};
+    cutVolume_ = std::make_unique<render::CutVolume>(std::move(*made));
+    return {};
+}
+
 Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector<OpenedSurface>& surfaces) {
+    if (!cutVolumeUnmet_.empty())
+        return Error{cutVolumeUnmet_};
     if (!deformation_)
         return {};
     SEROSA_TRY(deformation_->checkMet());
     SEROSA_TRY(place(0));
     for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
-        SEROSA_TRY(renderer.openBox(i, surfaceBox(i), *surfaces[i].lattice, *surfaces[i].metres,
+        SEROSA_TRY(renderer.openBox(i, surfaceBox(i, 0), *surfaces[i].lattice, *surfaces[i].metres,
                                     *surfaces[i].binding));
     return {};
 }
 
-render::StageBox ImplicitOrgans::surfaceBox(std::size_t organ) const {
+render::StageBox ImplicitOrgans::surfaceBox(std::size_t organ, double time) const {
     return deformation_->stageBox(
-        *warp_, stage_ == sim::Stage::composite ? kSeam * organs_[organ].field->grid().step : 0);
+        time, stage_ == sim::Stage::composite ? kSeam * organs_[organ].field->grid().step : 0);
 }
 
 Status ImplicitOrgans::place(double time) {
-    if (!deformation_ || (warp_ && !deformation_->moves()))
+    if (!deformation_ || (placed_ && !deformation_->moves()))
         return {};
-    SEROSA_ASSIGN(warp_, deformation_->at(time));
+    placed_ = true;
     for (std::size_t i = 0; i < organs_.size(); ++i) {
-        organs_[i].caster->setWarp(warp_);
+        SEROSA_ASSIGN(const std::optional<render::Warp> warp, deformation_->at(i, time));
+        organs_[i].caster->setWarp(warp);
         if (stage_ != sim::Stage::whole)
-            organs_[i].caster->setStage(surfaceBox(i));
+            organs_[i].caster->setStage(surfaceBox(i, time));
     }
     return {};
 }
@@ -74,7 +108,7 @@ Status ImplicitOrgans::moveTo(double time, render::SurfaceRenderer& renderer) {
         return {};
     SEROSA_TRY(place(time));
     for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
-        renderer.setBox(i, surfaceBox(i));
+        renderer.setBox(i, surfaceBox(i, time));
     return {};
 }
 

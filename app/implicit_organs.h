@@ -50,11 +50,14 @@ private:
         std::unique_ptr<render::LatticeWarp> lattice;
         std::unique_ptr<render::Raycaster> caster;
     };
+    Status readCutVolume(const sim::CutVolume& wanted);
     Status place(double time);
-    render::StageBox surfaceBox(std::size_t organ) const;
+    render::StageBox surfaceBox(std::size_t organ, double time) const;
 
     std::unique_ptr<SceneDeformation> deformation_;
-    std::optional<render::Warp> warp_; // points into it
+    std::unique_ptr<render::CutVolume> cutVolume_;
+    std::string cutVolumeUnmet_; // what is wrong while no organ has met it
+    bool placed_ = false;        // once
     sim::Stage stage_ = sim::Stage::whole;
     std::vector<Organ> organs_;
 };

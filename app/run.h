@@ -1,6 +1,7 @@
 #pragma once
 // `serosa run`: from a scene or a model to pictures, deformed surfaces and a summary.
 
+#include "app/other_surfaces.h"
 #include "base/result.h"
 #include "gpu/context.h"
 #include "sim/scene.h"
@@ -14,6 +15,7 @@ namespace serosa::app {
 
 struct RunOptions {
     std::filesystem::path scene; // either a scene file,
+    OtherSurfaces surfaces;      // of its organs,
     std::filesystem::path model; // or a model
     std::string lengthUnit;      // and its unit: "mm",
     sim::UpAxis upAxis = sim::UpAxis::y;

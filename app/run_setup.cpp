@@ -3,6 +3,7 @@
 #include "app/run_setup.h"
 
 #include "app/material_lines.h"
+#include "app/other_surfaces.h"
 #include "app/pose.h"
 #include "app/solver_choice.h"
 #include "app/tool_entry.h"
@@ -57,6 +58,7 @@ Status readSceneAndSurfaces(const RunOptions& options, RunParts& parts) {
     };
     if (!options.scene.empty()) {
         SEROSA_ASSIGN(parts.scene, sim::readScene(options.scene));
+        SEROSA_TRY(takeSurfaces(options.surfaces, parts.scene));
         for (const sim::Organ& organ : parts.scene.organs) {
             SEROSA_ASSIGN(OrganSurface surface, loadSurface(organ, options.scene));
             addOrgan(std::move(surface));

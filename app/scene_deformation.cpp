@@ -114,14 +114,16 @@ render::Warp SceneDeformation::warpOf(std::size_t i, double time) const {
     return {&textures_[i], mappingOf(scene_.deformations[i], time)};
 }
 
-Status SceneDeformation::check(const sim::TriangleMesh& metres) {
+Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metres) {
     const sim::TriangleTree tree(metres.positions, metres.faces);
     const glm::dvec3 lowest = metres.lowest(), highest = metres.highest();
     const auto inside = [&](const glm::dvec3& p) {
         return glm::all(glm::greaterThan(p, lowest)) && glm::all(glm::lessThan(p, highest)) &&
                sim::isInside(tree, p, 2 * glm::distance(lowest, highest));
     };
-    for (std::size_t i = 0; i < textures_.size(); ++i)
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        if (!scene_.deformations[i].isOf(organ))
+            continue;
         for (const double time : timesOf(scene_.deformations[i])) {
             const render::Warp warp = warpOf(i, time);
             const auto faces = render::examineFaces(warp, inside);
@@ -134,51 +136,64 @@ Status SceneDeformation::check(const sim::TriangleMesh& metres) {
             met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, highest)) &&
                                   glm::all(glm::lessThan(lowest, box.highest)));
         }
+    }
     return {};
 }
 
 Status SceneDeformation::checkMet() const {
     for (std::size_t i = 0; i < met_.size(); ++i)
         if (!met_[i])
-            return errorOf(i, "has no effect: its box lies outside of every organ: look at `at` and `size`");
+            return errorOf(
+                i,
+                "has no effect: its box lies outside of every organ that it is of: look at `at` and `size`");
     return {};
 }
 
-Result<render::Warp> SceneDeformation::at(double time) {
-    if (textures_.size() == 1)
-        return warpOf(0, time);
-    const bool stays = !moves();
-    if (!chain_ || (!stays && time != chainTime_)) {
-        const sim::Deformation& first = scene_.deformations.front();
-        bool together = true;
-        std::vector<render::Warp> warps;
-        for (std::size_t i = 0; i < textures_.size(); ++i) {
-            warps.push_back(warpOf(i, time));
-            together = together && textures_[i].size() == textures_[0].size() &&
-                       textures_[i].half() == textures_[0].half() &&
-                       warps[i].mapping.objectFromLocal == warps[0].mapping.objectFromLocal &&
-                       warps[i].mapping.cylinderRadius == warps[0].mapping.cylinderRadius;
-        }
-        chainMapping_ = warps[0].mapping;
-        if (together) {
-            render::DeformationTexture sum = textures_[0];
-            for (std::size_t i = 1; i < textures_.size(); ++i) {
-                Result<render::DeformationTexture> more = render::DeformationTexture::sum(sum, textures_[i]);
-                if (!more.ok())
-                    return errorOf(i, more.error().message);
-                sum = std::move(*more);
-            }
-            chain_ = std::move(sum);
-        } else {
-            Result<render::ChainedWarp> chained = render::chain(warps, formatOf(first));
-            if (!chained.ok())
-                return errorOf(0, chained.error().message);
-            chain_ = std::move(chained->texture);
-            chainMapping_ = chained->mapping;
-        }
-        chainTime_ = time;
+Status SceneDeformation::link(const std::vector<std::size_t>& some, double time, Chain& made) const {
+    bool together = true;
+    std::vector<render::Warp> warps;
+    for (const std::size_t i : some) {
+        warps.push_back(warpOf(i, time));
+        const render::Warp &first = warps.front(), &one = warps.back();
+        together = together && one.texture->size() == first.texture->size() &&
+                   one.texture->half() == first.texture->half() &&
+                   one.mapping.objectFromLocal == first.mapping.objectFromLocal &&
+                   one.mapping.cylinderRadius == first.mapping.cylinderRadius;
     }
-    return render::Warp{&*chain_, chainMapping_};
+    made.time = time;
+    if (together) {
+        render::DeformationTexture sum = *warps.front().texture;
+        for (std::size_t i = 1; i < some.size(); ++i) {
+            Result<render::DeformationTexture> more = render::DeformationTexture::sum(sum, *warps[i].texture);
+            if (!more.ok())
+                return errorOf(some[i], more.error().message);
+            sum = std::move(*more);
+        }
+        made.texture = std::move(sum);
+        made.mapping = warps.front().mapping;
+        return {};
+    }
+    Result<render::ChainedWarp> chained = render::chain(warps, formatOf(scene_.deformations[some.front()]));
+    if (!chained.ok())
+        return errorOf(some.front(), chained.error().message);
+    made.texture = std::move(chained->texture);
+    made.mapping = chained->mapping;
+    return {};
+}
+
+Result<std::optional<render::Warp>> SceneDeformation::at(std::size_t organ, double time) {
+    std::vector<std::size_t> some;
+    for (std::size_t i = 0; i < scene_.deformations.size(); ++i)
+        if (scene_.deformations[i].isOf(organ))
+            some.push_back(i);
+    if (some.empty())
+        return std::optional<render::Warp>();
+    if (some.size() == 1)
+        return std::optional(warpOf(some.front(), time));
+    Chain& chain = chains_[some];
+    if (!chain.texture || (moves() && time != chain.time))
+        SEROSA_TRY(link(some, time, chain));
+    return std::optional(render::Warp{&*chain.texture, chain.mapping});
 }
 
 bool SceneDeformation::moves() const {
@@ -186,7 +201,8 @@ bool SceneDeformation::moves() const {
                        [](const sim::Deformation& one) { return one.keys.size() > 1; });
 }
 
-render::StageBox SceneDeformation::stageBox(const render::Warp& warp, double seam) const {
+render::StageBox SceneDeformation::stageBox(double time, double seam) const {
+    const render::Warp warp = warpOf(0, time); // the only one (sim/scene_reader_deformation.h)
     const auto nowhere = [](const glm::dvec3&) { return false; };
     return render::StageBox::of(warp, render::examineFaces(warp, nowhere), seam);
 }

@@ -1,15 +1,16 @@
 #pragma once
-// A scene's deformations as what the deformation shader draws with: one texture and where it lies, at each
-// time (docs/methods/raycast.md).
+// A scene's deformations as what the deformation shader draws with: of each organ one texture and where it
+// lies, at each time (docs/methods/raycast.md).
 //
-// Several of them are one: their sum where they share box and place, else one after the other, the first next
-// to the organ at rest, sampled anew on a box around all of theirs (render/deformation_chain.h).
+// Several of one organ are one: their sum where they share box and place, else one after the other, the first
+// next to the organ at rest, sampled anew on a box around all of theirs (render/deformation_chain.h).
 
 #include "render/deformation_sources.h"
 #include "render/stage_box.h"
 #include "sim/scene.h"
 #include "sim/triangle_mesh.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,16 +25,17 @@ public:
 
     /// Says what is wrong with it on this organ, m, at all times that a key names. Errors: an organ that
     /// crosses a face of a box on which the map does not vanish; a box that meets none of the organs.
-    Status check(const sim::TriangleMesh& metres);
+    Status check(std::size_t organ, const sim::TriangleMesh& metres);
     /// After check() of all organs.
     Status checkMet() const;
 
-    /// The warp at a time; it points into this, until the next call.
-    Result<render::Warp> at(double time);
+    /// An organ's warp at a time; it points into this, until the next call for another time. Nothing: none of
+    /// the deformations is of this organ.
+    Result<std::optional<render::Warp>> at(std::size_t organ, double time);
     /// Does it go anywhere?
     bool moves() const;
-    /// The box of a scene that is drawn in two stages. \param seam m
-    render::StageBox stageBox(const render::Warp& warp, double seam) const;
+    /// The box of a scene that is drawn in two stages, at a time. \param seam m
+    render::StageBox stageBox(double time, double seam) const;
     /// Of the i-th deformation, as its kind makes it.
     const render::DeformationTexture& texture(std::size_t i) const { return textures_[i]; }
     /// What a user should know of what was made.
@@ -42,14 +44,19 @@ public:
 private:
     Result<render::DeformationTexture> textureOf(const sim::Deformation& one);
     render::Warp warpOf(std::size_t i, double time) const;
+    /// Some of them as one.
+    struct Chain {
+        std::optional<render::DeformationTexture> texture;
+        render::TextureMapping mapping;
+        double time = -1;
+    };
+    Status link(const std::vector<std::size_t>& some, double time, Chain& chain) const;
     Error errorOf(std::size_t i, const std::string& message) const;
 
     sim::Scene scene_;
     std::vector<render::DeformationTexture> textures_; // one a deformation
     std::vector<bool> met_;                            // an organ lies in its box
-    std::optional<render::DeformationTexture> chain_;
-    render::TextureMapping chainMapping_;
-    double chainTime_ = -1;
+    std::map<std::vector<std::size_t>, Chain> chains_;
     std::vector<std::string> notes_;
 };
 

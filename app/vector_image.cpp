@@ -9,6 +9,7 @@
 #include <itkImageFileReader.h>
 #include <itkImageFileWriter.h>
 #include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkVector.h>
 #include <itkVectorImage.h>
@@ -154,6 +155,47 @@ Result<VectorImage> readVectorImage(const fs::path& file) {
                     return Error{name +
                                  ": its axes are turned or mirrored: resample it to axes along x, y, z"};
         }
+        read.values.assign(image.GetBufferPointer(), image.GetBufferPointer() + count);
+        return read;
+    } catch (const itk::ExceptionObject& problem) {
+        return Error{name + ": ITK cannot read it: " + firstLine(problem.GetDescription())};
+    }
+}
+
+Result<ScalarVolume> readScalarVolume(const fs::path& file) {
+    const std::string name = file.string();
+    const bool nifti = name.ends_with(".nii") || name.ends_with(".nii.gz");
+    const itk::ImageIOBase::Pointer io =
+        nifti ? itk::ImageIOBase::Pointer(itk::NiftiImageIO::New().GetPointer())
+              : imageIo(file.extension().string());
+    if (!io)
+        return Error{name + ": unknown extension for a volume; use .nrrd, .mha, .nii or .nii.gz"};
+    if (!fs::is_regular_file(file))
+        return Error{name + ": no such file"};
+    try {
+        io->SetFileName(name);
+        io->ReadImageInformation();
+        if (io->GetNumberOfDimensions() != 3 || io->GetNumberOfComponents() != 1)
+            return Error{name + ": has " + std::to_string(io->GetNumberOfDimensions()) + " dimensions and " +
+                         std::to_string(io->GetNumberOfComponents()) +
+                         " numbers a voxel: give a volume of three dimensions with one"};
+        using Image = itk::Image<float, 3>;
+        const auto reader = itk::ImageFileReader<Image>::New();
+        reader->SetImageIO(io);
+        reader->SetFileName(name);
+        reader->Update();
+        const Image& image = *reader->GetOutput();
+        ScalarVolume read;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto at = unsigned(axis);
+            read.size[axis] = int(image.GetLargestPossibleRegion().GetSize()[at]);
+            for (int row = 0; row < 3; ++row)
+                read.placeFromVoxel[axis][row] =
+                    image.GetDirection()(unsigned(row), at) * image.GetSpacing()[at];
+            read.placeFromVoxel[3][axis] = image.GetOrigin()[at];
+        }
+        const std::size_t count =
+            std::size_t(read.size.x) * std::size_t(read.size.y) * std::size_t(read.size.z);
         read.values.assign(image.GetBufferPointer(), image.GetBufferPointer() + count);
         return read;
     } catch (const itk::ExceptionObject& problem) {

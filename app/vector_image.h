@@ -32,6 +32,17 @@ Status writeVectorImage(const VectorImage& image, const std::filesystem::path& f
 /// axes.
 Result<VectorImage> readVectorImage(const std::filesystem::path& file);
 
+/// A volume of one number a voxel, such as a CT or a map of labels; x fastest.
+struct ScalarVolume {
+    glm::ivec3 size{0};
+    glm::dmat4 placeFromVoxel{
+        1}; // mm, ITK's axes: left, posterior, superior; voxel (0, 0, 0) has its middle at 0
+    std::vector<float> values;
+};
+/// Numbers of any type, .nrrd, .mha, .nii or .nii.gz. Errors: of the file; not of three dimensions; several
+/// numbers a voxel.
+Result<ScalarVolume> readScalarVolume(const std::filesystem::path& file);
+
 /// ITK's, such as "5.2.1".
 const char* imageLibraryVersion();
 

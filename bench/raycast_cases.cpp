@@ -270,6 +270,9 @@ Status benchRaycast(const Options& options, Report& report) {
     add("linear", *fine.twisted, view, linear);
     add("adaptive", *fine.twisted, view, {});
     add("plain", *fine.plain, view, {});
+    render::RaycastLook gradient;
+    gradient.normals = render::Normals::gradient;
+    add("normals of the gradient", *fine.twisted, view, gradient);
     linear.step = render::RaycastLook().step;
     add("linear, default step", *fine.twisted, view, linear);
     add("plain, linear", *fine.plain, view, linear);
@@ -325,6 +328,7 @@ Status benchRaycast(const Options& options, Report& report) {
     report.ratio("raycast_linear_over_adaptive", rounds.ratio("linear", "adaptive"));
     report.ratio("raycast_displaced_over_plain_adaptive", rounds.ratio("adaptive", "plain"));
     report.ratio("raycast_displaced_over_plain", rounds.ratio("linear, default step", "plain, linear"));
+    report.ratio("raycast_gradient_over_warped_normals", rounds.ratio("normals of the gradient", "adaptive"));
     report.ratio("raycast_many_over_few_faces", rounds.ratio("many faces", "few faces"));
     return {};
 }

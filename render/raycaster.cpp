@@ -28,9 +28,12 @@ GLenum glType(TexelFormat format) {
 
 RaycastLook raycastLook(const sim::Look& look) {
     RaycastLook made;
-    made.solid = look.interior == sim::Interior::hollow  ? Solid::hollow
-                 : look.interior == sim::Interior::solid ? Solid::solid
-                                                         : Solid::shell;
+    made.solid = look.interior == sim::Interior::hollow     ? Solid::hollow
+                 : look.interior == sim::Interior::solid    ? Solid::solid
+                 : look.interior == sim::Interior::combined ? Solid::combined
+                                                            : Solid::shell;
+    made.normals = look.normals == sim::RayNormals::warped ? Normals::warped : Normals::gradient;
+    made.antialias = look.antialias;
     made.search = look.search == sim::RaySearch::linear      ? Search::linear
                   : look.search == sim::RaySearch::threshold ? Search::threshold
                                                              : Search::jacobian;
@@ -119,6 +122,12 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_COLOURED", "1"});
     if (variant.wound)
         defines.push_back({"RAYCAST_WOUND", "1"});
+    if (variant.normals == Normals::gradient)
+        defines.push_back({"RAYCAST_GRADIENT", "1"});
+    if (variant.volume)
+        defines.push_back({"RAYCAST_VOLUME", std::to_string(variant.volume)});
+    if (variant.samples)
+        defines.push_back({"RAYCAST_SAMPLES", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -128,10 +137,12 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     const bool wound = mapping_ && mapping_->cylinderRadius > 0;
-    SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, int(look.skipField) + 2 * int(look.skipCut),
-                           lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
-                           stage_.has_value(), volume_->colours() && !probe, probe}));
+    const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
+    SEROSA_ASSIGN(
+        gpu::Program* const made,
+        program({look.solid, look.search, look.normals, int(look.skipField) + 2 * int(look.skipCut), volume,
+                 lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
+                 stage_.has_value(), volume_->colours() && !probe, look.antialias && !probe, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = volume_->grid();
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -175,6 +186,11 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     } else {
         frame.setTissueLight(program, none_);
         program.set("u_inner", look.inner).set("u_flesh", look.flesh);
+        if (volume) {
+            glm::dmat4 worldFromObject(unit_);
+            worldFromObject[3] = glm::dvec4(origin_, 1);
+            cutVolume_->set(program, worldFromObject);
+        }
         if (volume_->colours())
             program.texture("t_colours", *volume_->colours());
         else

@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "gpu/handles.h"
 #include "gpu/program.h"
+#include "render/cut_volume.h"
 #include "render/deformation_texture.h"
 #include "render/distance_volume.h"
 #include "render/frame.h"
@@ -26,12 +27,19 @@
 
 namespace serosa::render {
 
-enum class Solid { hollow = SRS_SOLID_HOLLOW, solid = SRS_SOLID_SOLID, shell = SRS_SOLID_SHELL };
+enum class Solid {
+    hollow = SRS_SOLID_HOLLOW,
+    solid = SRS_SOLID_SOLID,
+    shell = SRS_SOLID_SHELL,
+    combined = SRS_SOLID_COMBINED // hollow, for comparison
+};
 enum class Search {
     linear = SRS_SEARCH_LINEAR,
     threshold = SRS_SEARCH_THRESHOLD,
     jacobian = SRS_SEARCH_JACOBIAN
 };
+
+enum class Normals { warped, gradient }; // eq. 5; of the deformed field
 
 struct RaycastLook {
     Solid solid = Solid::solid;
@@ -40,8 +48,10 @@ struct RaycastLook {
     double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
     bool closes = false;      // a surface that is drawn beside it: all but faces of cuts lies a little behind
-    bool skipField = true;    // empty space, by the distance field
-    bool skipCut = true;      // what a map's mask cuts away, by the distance to what it keeps
+    Normals normals = Normals::warped;
+    bool antialias = false; // a ray for each sample of a pixel
+    bool skipField = true;  // empty space, by the distance field
+    bool skipCut = true;    // what a map's mask cuts away, by the distance to what it keeps
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
 
@@ -69,6 +79,8 @@ public:
     /// What is ray-cast lies in this box, and its colour goes over what was drawn before by its seam;
     /// nothing: all is, after setWarp.
     void setStage(const std::optional<StageBox>& stage);
+    /// Colours the faces of cuts, from now on; null: nothing does. \param volume outlives this
+    void setCutVolume(const CutVolume* volume) { cutVolume_ = volume; }
     /// Bounds of what may be drawn, m: the field's, and where the warp can take it; of a lattice: its own.
     const glm::dvec3& lowest() const { return lowest_; }
     const glm::dvec3& highest() const { return highest_; }
@@ -83,8 +95,10 @@ private:
     struct Variant {
         Solid solid;
         Search search;
-        int skip; // 1 by the field, 2 by the cut
-        bool lattice, cut, warped, wound, staged, coloured, probe;
+        Normals normals;
+        int skip;   // 1 by the field, 2 by the cut
+        int volume; // CutVolume::kind(), 0: none
+        bool lattice, cut, warped, wound, staged, coloured, samples, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -94,6 +108,7 @@ private:
 
     const DistanceVolume* volume_ = nullptr;
     const LatticeWarp* lattice_ = nullptr;
+    const CutVolume* cutVolume_ = nullptr;
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
     gpu::Texture3D displacement_, skipTexture_;

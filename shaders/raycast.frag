@@ -7,6 +7,9 @@
 #ifndef RAYCAST_PROBE
 #include "tissue_light.glsl"
 #include "flesh.glsl"
+#ifdef RAYCAST_VOLUME
+#include "cut_volume.glsl"
+#endif
 #endif
 #include "raycast_box.glsl"
 
@@ -33,6 +36,7 @@ out vec4 o_colour;
 
 #ifndef RAYCAST_PROBE
 const float kInnerOpen = 0.8; // of the surround, in a cut
+const float kVolumeRoughness = 0.42;
 
 /// Linear colour outside at rest, and light of the surround that arrives.
 vec4 skinAt(vec3 rest) {
@@ -54,9 +58,14 @@ vec2 slab(vec3 from, vec3 along) {
 }
 
 void main() {
-    vec3 along = u_eye.w > 0.0 ? normalize(v_position - u_eye.xyz) : -u_eye.xyz;
+#ifdef RAYCAST_SAMPLES
+    vec3 position = interpolateAtSample(v_position, gl_SampleID); // a ray for each
+#else
+    vec3 position = v_position;
+#endif
+    vec3 along = u_eye.w > 0.0 ? normalize(position - u_eye.xyz) : -u_eye.xyz;
     along += vec3(equal(along, vec3(0.0))) * 1e-9;
-    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : v_position - length(boxHighest() - boxLowest()) * along;
+    vec3 from = u_eye.w > 0.0 ? u_eye.xyz : position - length(boxHighest() - boxLowest()) * along;
     vec2 range = slab(from, along);
     range.x = max(range.x, 0.0);
     if (range.x >= range.y)
@@ -94,6 +103,13 @@ void main() {
         Flesh flesh = fleshAt(hit.rest, u_flesh);
         tissue.albedo = flesh.albedo;
         tissue.roughness = flesh.roughness;
+#ifdef RAYCAST_VOLUME
+        vec4 volume = cutVolumeAt(hit.rest);
+        if (volume.w > 0.5) {
+            tissue.albedo = volume.rgb;
+            tissue.roughness = kVolumeRoughness;
+        }
+#endif
     }
     o_colour = vec4(tissueLight(tissue, v), 1.0);
 #ifdef RAYCAST_STAGE

@@ -8,6 +8,7 @@
 #define SRS_SOLID_HOLLOW 0
 #define SRS_SOLID_SOLID 1
 #define SRS_SOLID_SHELL 2
+#define SRS_SOLID_COMBINED 3 // hollow, by one implicit of object and mask: for comparison
 
 // How it is searched.
 #define SRS_SEARCH_LINEAR 0

@@ -4,7 +4,12 @@
 // are passed by. Solid and shell: the first place where the ray comes to matter, which is where the body's field is negative and
 // the mask keeps; where the body's field was negative before, it is a face of the cut. A shell's field is eq. 7 in our sign,
 // max(f, -thickness - f): both of its sides are exact, where eq. 7 as printed jumps at half of the thickness.
+// Combined: hollow as section 5.1.1 warns of it: the zeros of one implicit, object minus cut, of which those of the cut are passed by.
+// What of the object is thinner beside the cut than a step has no sample, and is missed.
+// RAYCAST_GRADIENT: normals from the deformed field's gradient (section 3.3), not by eq. 5.
 #include "raycast_constants.h"
+#define RAYCAST_SEARCHES_BODY (RAYCAST_SOLID == SRS_SOLID_HOLLOW)
+#define RAYCAST_IS_HOLLOW (RAYCAST_SEARCHES_BODY || RAYCAST_SOLID == SRS_SOLID_COMBINED)
 #include "raycast_warp.glsl"
 
 uniform float u_step;      // between samples, object space
@@ -91,8 +96,10 @@ float stageAt(vec3 shown) {
 
 /// Has the ray met something between two places?
 bool crossed(Place before, Place now) {
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+#if RAYCAST_SEARCHES_BODY
     return (before.body < 0.0) != (now.body < 0.0);
+#elif RAYCAST_SOLID == SRS_SOLID_COMBINED
+    return matter(before) != matter(now);
 #else
     return !matter(before) && matter(now);
 #endif
@@ -117,7 +124,7 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
             now = placeAt(from + t * along);
             ++hit.samples;
             found = crossed(before, now);
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+#if RAYCAST_IS_HOLLOW
             found = found && !(skip.cut && by <= skip.way); // what is cut away is not looked at
 #endif
 #ifdef RAYCAST_STAGE
@@ -138,9 +145,12 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
                 out_ = at;
             }
         }
-#if RAYCAST_SOLID == SRS_SOLID_HOLLOW
+#if RAYCAST_SEARCHES_BODY
         hit.any = found && in_.at.mask >= 0.5 && !entersInside(in_);
         hit.back = now.body >= 0.0;
+#elif RAYCAST_SOLID == SRS_SOLID_COMBINED
+        hit.any = found && (out_.body < 0.0) != (in_.body < 0.0) && !entersInside(in_);
+        hit.back = in_.body >= 0.0;
 #else
         hit.any = found;
         hit.face = out_.body < 0.0 || entersInside(in_);
@@ -160,6 +170,10 @@ vec3 hitNormal(vec3 shown, Hit hit) {
     vec3 mask = hit.face ? maskGradient(shown) : vec3(0.0);
     if (mask != vec3(0.0)) // there is none where tissue ends that nothing cut
         return normalize(-mask);
+#ifdef RAYCAST_GRADIENT
+    vec3 normal = normalize(deformedGradient(shown));
+#else
     vec3 normal = normalize(transpose(warpJacobian(shown)) * fieldGradient(hit.rest));
+#endif
     return hit.back ? -normal : normal;
 }

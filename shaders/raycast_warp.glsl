@@ -168,3 +168,13 @@ vec3 fieldGradient(vec3 rest) {
                 field(rest + by.yyx) - field(rest - by.yyx)) /
            (2.0 * u_fieldStep);
 }
+
+#ifdef RAYCAST_GRADIENT
+/// Of f'(p') = f(p), over as much as fieldGradient: six warps, where eq. 5 reads D around one place.
+vec3 deformedGradient(vec3 shown) {
+    vec3 by = vec3(u_fieldStep, 0.0, 0.0);
+    return vec3(field(warp(shown + by.xyy).rest) - field(warp(shown - by.xyy).rest),
+                field(warp(shown + by.yxy).rest) - field(warp(shown - by.yxy).rest),
+                field(warp(shown + by.yyx).rest) - field(warp(shown - by.yyx).rest));
+}
+#endif

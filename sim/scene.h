@@ -117,11 +117,21 @@ enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 /// What an organ is drawn as: its surface, or its distance field, ray-cast (docs/methods/raycast.md).
 enum class Show { surface, implicit, both };
 /// What is in it, where it is ray-cast.
-enum class Interior { hollow, solid, shell };
+enum class Interior { hollow, solid, shell, combined };
 /// What is drawn of an organ that is ray-cast where its deformation's box is (render/stage_box.h).
 enum class Stage { whole, mesh, box, composite };
 /// How rays are searched there, and what in.
 enum class RaySearch { linear, threshold, jacobian };
+enum class RayNormals { warped, gradient };
+/// A volume that colours the faces of cuts, at rest.
+struct CutVolume {
+    std::filesystem::path file;
+    glm::dvec3 at{0};                               // m: where its zero lies in the world
+    UpAxis upAxis = UpAxis::y;                      // that of its axes which points up
+    double level = 40, width = 400;                 // window of the grey values
+    std::vector<std::pair<int, glm::ivec3>> labels; // value, sRGB; empty: grey values
+    int line = 0;                                   // of the scene file
+};
 
 struct Look {
     Show show = Show::surface;
@@ -132,6 +142,9 @@ struct Look {
     RaySearch search = RaySearch::jacobian;
     double searchStep = 0.5; // voxels of the distance field
     bool skipEmpty = true;
+    RayNormals normals = RayNormals::warped;
+    bool antialias = false; // a ray for each sample of a pixel
+    std::optional<CutVolume> cutVolume;
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn
@@ -168,6 +181,7 @@ struct DeformationKey {
 };
 struct Deformation {
     DeformationKind kind = DeformationKind::twist;
+    std::vector<std::size_t> organs;                     // that it is of; empty: all
     glm::dvec3 at{0}, size{0};                           // of its box: middle, lengths along its own axes, m
     glm::dvec3 up{0, 1, 0}, along{1, 0, 0};              // its own y and x axis, world; orthonormal
     double amount = 0;                                   // rad (twist, bend) or m
@@ -185,6 +199,7 @@ struct Deformation {
 
     /// Where it is at a time, between two keys evenly; before the first and after the last, as there.
     DeformationKey placeAt(double time) const;
+    bool isOf(std::size_t organ) const;
 };
 
 enum class ImageFormat { nrrd, mha };

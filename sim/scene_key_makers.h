@@ -35,4 +35,7 @@ using Dim = Dimension;
 /// Of `[deformation]` (sim/scene_keys_deformation.cpp).
 std::vector<SceneKey> deformationKeys();
 
+/// Of `[look.cut_volume]` (sim/scene_keys_deformation.cpp).
+std::vector<SceneKey> cutVolumeKeys();
+
 } // namespace serosa::sim

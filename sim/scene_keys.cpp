@@ -350,8 +350,9 @@ std::vector<SceneKey> otherKeys() {
         word("look", "stage", {"whole", "mesh", "box", "composite"}, "\"whole\"",
              "implicit: all is ray-cast, or only what lies in the deformation's box: the surface without it, "
              "the box alone, both together"),
-        word("look", "interior", {"hollow", "solid", "shell"}, "\"solid\"",
-             "implicit: what is seen where it is cut open"),
+        word("look", "interior", {"hollow", "solid", "shell", "combined"}, "\"solid\"",
+             "implicit: what is seen where it is cut open; combined: hollow, by one implicit of organ and "
+             "cut, which misses what is thin beside a sharp cut: for comparison"),
         quantity("look", "shell", Dim::length, kPositive, "\"8 mm\"", "implicit: thickness of a shell"),
         plain("look", "field_samples", Kind::integer, {16, 512}, "96",
               "implicit: samples of the distance field along the organ's longest side"),
@@ -362,6 +363,14 @@ std::vector<SceneKey> otherKeys() {
               "implicit: between samples, of a sample of the distance field"),
         plain("look", "skip_empty", Kind::boolean, kAny, "true",
               "implicit: skip space in which a ray meets nothing"),
+        word("look", "normals", {"warped", "gradient"}, "\"warped\"",
+             "implicit: the normal at rest, carried by the map's Jacobian; or the gradient of the deformed "
+             "field, for comparison"),
+        plain("look", "antialias", Kind::boolean, kAny, "false",
+              "implicit: a ray for each sample of a pixel, not for its middle: smooth outlines, for as many "
+              "times the work"),
+        plain("look", "cut_volume", Kind::table, kAny, "",
+              "implicit, both: a volume that colours the faces of cuts"),
         plain("look", "surface", Kind::boolean, kAny, "true", "draw the surface"),
         plain("look", "lattice", Kind::boolean, kAny, "false", "draw the springs"),
         plain("look", "tools", Kind::boolean, kAny, "true", "draw tools, bodies and threads"),
@@ -406,6 +415,7 @@ std::vector<SceneKey> makeKeys() {
     add(keys, bodyKeys());
     add(keys, threadKeys());
     add(keys, otherKeys());
+    add(keys, cutVolumeKeys());
     add(keys, deformationKeys());
     return keys;
 }

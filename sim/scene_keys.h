@@ -14,6 +14,7 @@ enum class ValueKind {
     number,
     boolean,
     text,
+    texts,
     word,
     quantity,
     quantity3,

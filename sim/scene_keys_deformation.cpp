@@ -9,6 +9,8 @@ std::vector<SceneKey> deformationKeys() {
              {"twist", "bend", "pull", "peel", "wave", "knife", "seam", "incision", "sphere", "box", "points",
               "image", "texture"},
              nullptr, "which map (docs/methods/raycast.md)"),
+        plain("deformation", "organs", Kind::texts, kAny, "",
+              "names of the organs that it is of; all of them where absent"),
         quantity("deformation", "at", Dim::length, kAny, nullptr, "middle of its box", Kind::quantity3),
         quantity("deformation", "size", Dim::length, kPositive, "",
                  "lengths of its box along its own axes; a file has its own, else it is needed",
@@ -58,6 +60,26 @@ std::vector<SceneKey> deformationKeys() {
         quantity("deformation.keys", "turn", Dim::angle, {-5000, 5000}, "\"0 deg\"", "about its own y axis"),
         plain("deformation.keys", "scale", Kind::number, kPositive, "1",
               "of its box, and of all that it does"),
+    };
+}
+
+std::vector<SceneKey> cutVolumeKeys() {
+    const char* const table = "look.cut_volume";
+    return {
+        plain(table, "file", Kind::text, kAny, nullptr,
+              "a volume of one number a voxel (.nrrd, .mha, .nii, .nii.gz) in millimetres, with its own "
+              "origin, spacing and direction; the path is relative to the scene file"),
+        quantity(table, "at", Dim::length, kAny, "[\"0 mm\", \"0 mm\", \"0 mm\"]",
+                 "where the zero of its coordinates lies in the world", Kind::quantity3),
+        word(table, "up_axis", {"y", "x", "z", "-y", "-x", "-z"}, "\"y\"",
+             "axis of its coordinates that points up, as of `[[organ]]`; ITK's z leads to the head"),
+        plain(table, "level", Kind::number, kAny, "40", "grey values: middle of the window (CT: HU)"),
+        plain(table, "width", Kind::number, kPositive, "400",
+              "grey values: from the darkest to the lightest"),
+        plain(table, "label", Kind::tables, kAny, "",
+              "of a map of labels: colours of its values; others have the colours of cut muscle"),
+        plain("look.cut_volume.label", "value", Kind::integer, {0, 65535}, nullptr, "in the volume"),
+        plain("look.cut_volume.label", "colour", Kind::integer3, {0, 255}, nullptr, "sRGB"),
     };
 }
 

@@ -3,6 +3,7 @@
 
 #include "sim/scene_reader_coupling.h"
 #include "sim/scene_reader_deformation.h"
+#include "sim/scene_reader_volume.h"
 #include "sim/scene_reader_organ.h"
 #include "sim/scene_reader_tools.h"
 #include "sim/scene_table.h"
@@ -122,6 +123,8 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("search", scene.look.search));
     SEROSA_TRY(look.read("search_step", scene.look.searchStep));
     SEROSA_TRY(look.read("skip_empty", scene.look.skipEmpty));
+    SEROSA_TRY(look.readWord("normals", scene.look.normals));
+    SEROSA_TRY(look.read("antialias", scene.look.antialias));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));
@@ -212,6 +215,7 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     SEROSA_ASSIGN(const toml::table* light, top.table("light"));
     SEROSA_ASSIGN(const toml::table* look, top.table("look"));
     SEROSA_TRY(readLightAndLook({source, "light", "light", light}, {source, "look", "look", look}, scene));
+    SEROSA_TRY(readCutVolume(source, {source, "look", "look", look}, folder, scene));
     SEROSA_TRY(readDeformations(source, top, folder, scene));
     SEROSA_ASSIGN(const toml::table* outputTable, top.table("output"));
     const SceneTable output(source, "output", "output", outputTable);

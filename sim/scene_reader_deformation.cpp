@@ -2,6 +2,7 @@
 #include "sim/scene_reader_deformation.h"
 
 #include "sim/scene_reader_organ.h"
+#include "sim/suggest.h"
 
 #include <algorithm>
 #include <string>
@@ -130,11 +131,31 @@ Status readAxes(const SceneTable& table, Deformation& made) {
     return {};
 }
 
+Status readOrgans(const SceneTable& table, const std::vector<Organ>& organs, Deformation& made) {
+    std::vector<std::string> wanted, names;
+    if (!table.has("organs"))
+        return {};
+    SEROSA_TRY(table.read("organs", wanted));
+    for (const Organ& organ : organs)
+        names.push_back(organ.name);
+    for (const std::string& name : wanted) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end())
+            return table.errorAt("organs", "no organ is named " + inQuotes(name) + suggestion(name, names));
+        const auto organ = std::size_t(found - names.begin());
+        if (std::find(made.organs.begin(), made.organs.end(), organ) != made.organs.end())
+            return table.errorAt("organs", "names " + inQuotes(name) + " twice: keep one");
+        made.organs.push_back(organ);
+    }
+    return {};
+}
+
 Status readOne(const SceneSource& source, const SceneTable& table, const std::string& path,
-               const std::filesystem::path& folder, Deformation& made) {
+               const std::filesystem::path& folder, const std::vector<Organ>& organs, Deformation& made) {
     SEROSA_TRY(table.checkKeys());
     SEROSA_TRY(table.readWord("kind", made.kind));
     made.line = table.lineOf("kind");
+    SEROSA_TRY(readOrgans(table, organs, made));
     SEROSA_TRY(checkKind(table, made.kind));
     SEROSA_TRY(table.read("at", made.at));
     SEROSA_TRY(table.read("size", made.size));
@@ -172,7 +193,7 @@ Status readDeformations(const SceneSource& source, const SceneTable& top, const 
         const std::string path = "deformation[" + std::to_string(i) + "]";
         const SceneTable table(source, "deformation", path, all[i]);
         Deformation made;
-        SEROSA_TRY(readOne(source, table, path, folder, made));
+        SEROSA_TRY(readOne(source, table, path, folder, scene.organs, made));
         if (look.show != Show::implicit)
             return table.errorAt("kind", "has no effect: surfaces are drawn; set look.show = \"implicit\"");
         scene.deformations.push_back(std::move(made));
@@ -184,6 +205,10 @@ Status readDeformations(const SceneSource& source, const SceneTable& top, const 
     if (look.stage != Stage::whole && look.show != Show::implicit)
         return table.errorAt("stage", "has no effect: set look.show = \"implicit\"");
     return {};
+}
+
+bool Deformation::isOf(std::size_t organ) const {
+    return organs.empty() || std::find(organs.begin(), organs.end(), organ) != organs.end();
 }
 
 DeformationKey Deformation::placeAt(double time) const {

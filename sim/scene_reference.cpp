@@ -24,9 +24,9 @@ std::string quantityName(Dimension dimension) {
 std::string tableTitle(const std::string& table) {
     if (table.empty())
         return "At the top";
-    const std::set<std::string> repeated{"organ",       "organ.material", "organ.region", "organ.fixed",
-                                         "organ.level", "tool",           "body",         "thread",
-                                         "cut",         "deformation"};
+    const std::set<std::string> repeated{
+        "organ", "organ.material", "organ.region", "organ.fixed", "organ.level",          "tool",
+        "body",  "thread",         "cut",          "deformation", "look.cut_volume.label"};
     if (table == "tool.keys")
         return "`keys` of `[[tool]]`, each `{ t = ..., at = ... }`";
     if (table == "thread.ends")
@@ -79,6 +79,8 @@ std::string describeValue(const SceneKey& key) {
         return "true or false";
     case Kind::text:
         return "text";
+    case Kind::texts:
+        return "array of texts";
     case Kind::word:
         for (std::size_t i = 0; i < key.words.size(); ++i)
             text += (i == 0 ? "\"" : i + 1 == key.words.size() ? " or \"" : ", \"") + key.words[i] + "\"";

@@ -293,6 +293,27 @@ Status SceneTable::read(const char* key, std::vector<double>& value) const {
     return {};
 }
 
+Status SceneTable::read(const char* key, std::vector<std::string>& value) const {
+    if (const toml::node* given = node(key)) {
+        if (!given->is_array())
+            return wrongType(spec(key), *given);
+        value.clear();
+        for (const toml::node& item : *given->as_array()) {
+            const auto text = item.value_exact<std::string>();
+            if (!text)
+                return wrongType(spec(key), item);
+            value.push_back(*text);
+        }
+        if (value.empty())
+            return errorAt(key, "is empty");
+    }
+    std::string list;
+    for (const std::string& text : value)
+        list += (list.empty() ? "" : ", ") + inQuotes(text);
+    note(key, "[" + list + "]");
+    return {};
+}
+
 Status SceneTable::readWordIndex(const char* key, int& index) const {
     const SceneKey& known = spec(key);
     if (const toml::node* given = node(key)) {

@@ -49,6 +49,7 @@ public:
     Status read(const char* key, glm::ivec2& value) const;
     Status read(const char* key, glm::ivec3& value) const;
     Status read(const char* key, std::vector<double>& value) const;
+    Status read(const char* key, std::vector<std::string>& value) const;
     /// One of the key's words; Enum counts them from 0 in the same order.
     template <class Enum>
     Status readWord(const char* key, Enum& value) const {

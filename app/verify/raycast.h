@@ -28,6 +28,7 @@ Result<RaycastModel> raycastBall(int samples);
 Status verifyRaycastTwin(const VerifyOptions& options, CheckList& checks);  // app/verify/raycast_twin.cpp
 Status verifyRaycastKnown(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_known.cpp
 Status verifyRaycastFigure3(const VerifyOptions& options,
-                            CheckList& checks); // app/verify/raycast_figure3.cpp
+                            CheckList& checks);                            // app/verify/raycast_figure3.cpp
+Status verifyRaycastWays(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_ways.cpp
 
 } // namespace serosa::app

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <itkImage.h>
 #include <itkImageFileReader.h>
+#include <itkImageFileWriter.h>
 #include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkVector.h>
 
@@ -154,6 +156,83 @@ TEST_F(VectorImage, errorsLeaveNothingBehind) {
     for (const Status& written : full)
         EXPECT_FALSE(written.ok());
     EXPECT_EQ(folder_.names(), (std::set<std::string>{}));
+}
+
+/// Values that say their index, on axes that are turned and mirrored.
+template <unsigned dimensions>
+void writeNumbered(itk::ImageIOBase::Pointer io, const fs::path& file) {
+    using Image = itk::Image<short, dimensions>;
+    const auto image = Image::New();
+    typename Image::SizeType size;
+    size.Fill(2);
+    size[0] = 4;
+    size[1] = 3;
+    image->SetRegions(typename Image::RegionType(size));
+    image->Allocate();
+    if constexpr (dimensions == 3) {
+        const double c = std::cos(0.4), s = std::sin(0.4);
+        const double axes[3][3] = {{-c, 0, s}, {0, -1, 0}, {s, 0, c}}, origin[3] = {-12.5, 40, 7},
+                     spacing[3] = {1.5, 2.25, 4};
+        typename Image::DirectionType direction;
+        for (unsigned i = 0; i < 3; ++i)
+            for (unsigned j = 0; j < 3; ++j)
+                direction(i, j) = axes[i][j];
+        image->SetDirection(direction);
+        image->SetOrigin(origin);
+        image->SetSpacing(spacing);
+    }
+    for (std::size_t i = 0; i < image->GetLargestPossibleRegion().GetNumberOfPixels(); ++i)
+        image->GetBufferPointer()[i] = short(10 * i - 50);
+    const auto writer = itk::ImageFileWriter<Image>::New();
+    writer->SetImageIO(io);
+    writer->SetFileName(file.string());
+    writer->SetInput(image);
+    writer->Update();
+}
+
+TEST_F(VectorImage, VolumesLieWhereItkSaysThatTheirVoxelsDo) {
+    const std::pair<const char*, itk::ImageIOBase::Pointer> formats[] = {
+        {"v.nrrd", itk::NrrdImageIO::New().GetPointer()},
+        {"v.mha", itk::MetaImageIO::New().GetPointer()},
+        {"v.nii", itk::NiftiImageIO::New().GetPointer()},
+        {"v.nii.gz", itk::NiftiImageIO::New().GetPointer()}};
+    for (const auto& [name, io] : formats) {
+        SCOPED_TRACE(name);
+        const fs::path file = folder_.path() / name;
+        writeNumbered<3>(io, file);
+        const auto read = readScalarVolume(file);
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        ASSERT_EQ(read->size, glm::ivec3(4, 3, 2));
+        const double c = std::cos(0.4), s = std::sin(0.4);
+        std::size_t i = 0;
+        for (int z = 0; z < 2; ++z)
+            for (int y = 0; y < 3; ++y)
+                for (int x = 0; x < 4; ++x, ++i) {
+                    EXPECT_EQ(read->values[i], float(10 * i) - 50);
+                    const glm::dvec3 place(read->placeFromVoxel * glm::dvec4(x, y, z, 1)),
+                        known(-12.5 - 1.5 * c * x + 4 * s * z, 40 - 2.25 * y, 7 + 1.5 * s * x + 4 * c * z);
+                    EXPECT_LT(glm::distance(place, known), 1e-4); // NIfTI has float32
+                }
+    }
+}
+
+TEST_F(VectorImage, WhatIsNoVolumeIsRefusedInOneLine) {
+    writeNumbered<2>(itk::MetaImageIO::New().GetPointer(), folder_.path() / "flat.mha");
+    ASSERT_TRUE(writeDisplacementImage(grid_, folder_.path() / "vectors.nrrd").ok());
+    folder_.write("text.nrrd", "no image\n");
+    folder_.write("text.nii.gz", "no image\n");
+    for (const auto& [name, says] : {std::pair{"flat.mha", "2 dimensions"},
+                                     {"vectors.nrrd", "3 numbers a voxel"},
+                                     {"text.nrrd", ""},
+                                     {"text.nii.gz", ""},
+                                     {"gone.mha", "no such file"},
+                                     {"v.dcm", "unknown extension"}}) {
+        const auto read = readScalarVolume(folder_.path() / name);
+        ASSERT_FALSE(read.ok()) << name;
+        EXPECT_NE(read.error().message.find(name), std::string::npos);
+        EXPECT_NE(read.error().message.find(says), std::string::npos) << read.error().message;
+        EXPECT_EQ(read.error().message.find('\n'), std::string::npos) << read.error().message;
+    }
 }
 
 } // namespace

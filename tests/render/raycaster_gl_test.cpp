@@ -1,5 +1,7 @@
 // The deformation shader: what is known in closed form, and its twin in double with dense samples.
 #include "models/phantom.h"
+#include "render/picture_target.h"
+#include "render/raycast_measures.h"
 #include "render/raycast_twin.h"
 #include "render/raycaster.h"
 #include "tests/gl_fixture.h"
@@ -129,6 +131,64 @@ TEST_F(GlRaycaster, AShearedBallHasItsKnownSilhouette) {
     }
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(inside, 700);
+}
+
+/// Linear red of a picture over black.
+std::vector<double> linearRed(Raycaster& caster, const RaycastView& view, bool antialias) {
+    const PictureTarget target(view.width, view.height);
+    target.begin();
+    glClearColor(0, 0, 0, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    RaycastLook look;
+    look.antialias = antialias;
+    const Status drawn = caster.draw(view.frame, look);
+    EXPECT_TRUE(drawn.ok()) << drawn.error().message;
+    target.end();
+    const Image image = target.read();
+    std::vector<double> red;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+        const double s = image.rgb[i] / 255.0;
+        red.push_back(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    }
+    return red;
+}
+
+// What a pixel at the edge should show is the mean of many smaller ones.
+TEST_F(GlRaycaster, ARayASampleSmoothsTheEdges) {
+    constexpr int kFine = 8, kSmall = 40;
+    const sim::TriangleMesh mesh = ball();
+    const DistanceVolume volume = volumeOf(mesh, 40);
+    const sim::Lattice space = objectSpace(0.004);
+    auto caster = Raycaster::create(space, volume);
+    ASSERT_TRUE(caster.ok());
+    const auto view = [&](int size) {
+        return RaycastView::of(space, mesh.lowest(), mesh.highest(), {0.2, -0.3, -1},
+                               sim::Projection::perspective, size, size);
+    };
+    const auto fine = linearRed(*caster, view(kFine * kSmall), false),
+               plain = linearRed(*caster, view(kSmall), false),
+               smooth = linearRed(*caster, view(kSmall), true);
+    double offPlain = 0, offSmooth = 0;
+    int edges = 0;
+    for (int y = 0; y < kSmall; ++y)
+        for (int x = 0; x < kSmall; ++x) {
+            double sum = 0;
+            int dark = 0;
+            for (int k = 0; k < kFine * kFine; ++k) {
+                const double red =
+                    fine[std::size_t((y * kFine + k / kFine) * kFine * kSmall + x * kFine + k % kFine)];
+                sum += red;
+                dark += red < 0.005;
+            }
+            if (dark == 0 || dark == kFine * kFine)
+                continue;
+            ++edges;
+            const auto i = std::size_t(y * kSmall + x);
+            offPlain += std::abs(plain[i] - sum / (kFine * kFine));
+            offSmooth += std::abs(smooth[i] - sum / (kFine * kFine));
+        }
+    EXPECT_GT(edges, 80);
+    EXPECT_LT(offSmooth, 0.5 * offPlain) << "over " << edges << " pixels";
 }
 
 struct Case {

@@ -25,6 +25,15 @@ std::vector<BadScene> badScenes() {
     const auto tool = [](const std::string& lines) { return kMinimal + "[[tool]]\n" + lines + "\n"; };
     const auto camera = [](const std::string& lines) { return kMinimal + "[camera]\n" + lines + "\n"; };
     const auto output = [](const std::string& line) { return kMinimal + "[output]\n" + line + "\n"; };
+    const auto cutVolume = [](const std::string& lines) {
+        return kMinimal + "[look]\nshow = \"implicit\"\n[look.cut_volume]\n" + lines + "\n";
+    };
+    const std::string label = "[[look.cut_volume.label]]\nvalue = 1\ncolour = [200, 30, 20]\n";
+    const auto ofOrgans = [](const std::string& names) {
+        return "schema = 1\n" + kOrgan + "name = \"liver\"\n" + kOrgan +
+               "name = \"gall\"\n[look]\nshow = \"implicit\"\n[deformation]\nkind = \"sphere\"\norgans = " +
+               names + "\nat = [\"0 m\", \"0 m\", \"0 m\"]\n";
+    };
     std::string nineOrgans;
     for (int i = 0; i < 9; ++i)
         nineOrgans += kOrgan + "name = \"" + std::to_string(i) + "\"\n";
@@ -62,6 +71,25 @@ std::vector<BadScene> badScenes() {
         {"TileOfNothing", kMinimal + "[organ.look]\ntile = \"3 mm\"\n", "6:8", "no effect without a texture"},
         {"TileIsNothing", kMinimal + "[organ.look]\ntexture = \"fat\"\ntile = \"0 mm\"\n", "7:8",
          "greater than 0"},
+        {"CutVolumeGone", cutVolume("file = \"gone.mha\""), "8:8", "no such file"},
+        {"CutVolumeOfNoFile", cutVolume("level = 3"), "7:", "file' is missing"},
+        {"CutVolumeNoWidth", cutVolume("file = \"ball.ply\"\nwidth = 0"), "9:9", "greater than 0"},
+        {"CutVolumeNegativeWidth", cutVolume("file = \"ball.ply\"\nwidth = -4"), "9:9", "greater than 0"},
+        {"CutVolumeUnknownKey", cutVolume("file = \"ball.ply\"\nwindow = 4"), "9:1", "unknown key"},
+        {"CutVolumeLabelTwice", cutVolume("file = \"ball.ply\"\n" + label + label), "13:9",
+         "a colour already"},
+        {"CutVolumeWidthOfLabels", cutVolume("file = \"ball.ply\"\nwidth = 4\n" + label), "9:9",
+         "beside labels"},
+        {"CutVolumeOfSurfaces", kMinimal + "[look.cut_volume]\nfile = \"ball.ply\"\n", "6:8",
+         "surfaces are drawn"},
+        {"CutVolumeOfHollow",
+         kMinimal + "[look]\nshow = \"implicit\"\ninterior = \"hollow\"\n[look.cut_volume]\nfile = "
+                    "\"ball.ply\"\n",
+         "9:8", "hollow"},
+        {"DeformationOfNoOrgan", ofOrgans("[\"livr\"]"), "14:10", "did you mean 'liver'"},
+        {"DeformationOfOneTwice", ofOrgans("[\"liver\", \"liver\"]"), "14:10", "twice"},
+        {"DeformationOfNone", ofOrgans("[]"), "14:10", "is empty"},
+        {"DeformationOfText", ofOrgans("\"liver\""), "14:10", "array of texts"},
         {"UnknownMethod", kMinimal + "method = \"implict\"\n", "5:10", "did you mean 'implicit'"},
         {"MethodIsNoNumber", kMinimal + "method = 1\n", "5:10", "method"},
         {"MethodAtTheTop", top("method = \"implicit\""), "2:1", "unknown key"},
