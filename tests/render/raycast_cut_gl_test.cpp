@@ -355,7 +355,7 @@ TEST_F(GlRaycastCut, TheSurfaceAndWhatIsRayCastAgreeToAPixel) {
             bindings = {
                 expressBinding(bindings[0], lattice_, mesh_, sim::Mapping::trilinear, now.connections)};
             const CutSurface left =
-                cutSurface(lattice_, mesh_, bindings[0], now.connections, mask_->nodeSides());
+                cutSurface(lattice_, mesh_, bindings[0], bindings[0], now.connections, mask_->nodeSides());
             const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice_, now.connections);
             ASSERT_TRUE(passes->show(left, lattice_, mesh_, bindings, boundary, state_->layout()).ok());
         }
