@@ -181,6 +181,24 @@ Result<render::Warp> SceneDeformation::at(double time) {
     return render::Warp{&*chain_, chainMapping_};
 }
 
+glm::dmat4 SceneDeformation::motionAt(double time, double while_) const {
+    glm::dmat4 furthest(1);
+    double most = 0;
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        const glm::dmat4 now = warpOf(i, time).mapping.objectFromLocal,
+                         before = warpOf(i, time - while_).mapping.objectFromLocal;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec4 at((glm::dvec3(sim::cornerOffset(corner)) * 2.0 - 1.0) * textures_[i].half(), 1);
+            const double way = glm::length(now * at - before * at);
+            if (way > most) {
+                most = way;
+                furthest = before * glm::inverse(now);
+            }
+        }
+    }
+    return furthest;
+}
+
 bool SceneDeformation::moves() const {
     return std::any_of(scene_.deformations.begin(), scene_.deformations.end(),
                        [](const sim::Deformation& one) { return one.keys.size() > 1; });

@@ -30,6 +30,9 @@ public:
 
     /// The warp at a time; it points into this, until the next call.
     Result<render::Warp> at(double time);
+    /// What takes a place of its box at a time to where it was a while (s) before, m; of several boxes, of
+    /// the one that goes furthest.
+    glm::dmat4 motionAt(double time, double while_) const;
     /// Does it go anywhere?
     bool moves() const;
     /// The box of a scene that is drawn in two stages. \param seam m

@@ -118,10 +118,15 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("stage", scene.look.stage));
     SEROSA_TRY(look.readWord("interior", scene.look.interior));
     SEROSA_TRY(look.read("shell", scene.look.shell));
+    SEROSA_TRY(look.readWord("field", scene.look.field));
+    SEROSA_TRY(look.readWord("depth_axis", scene.look.depthAxis));
+    if (look.has("depth_axis") && scene.look.field != Field::depth)
+        return look.errorAt("depth_axis", "has no effect: set field = \"depth\"");
     SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
     SEROSA_TRY(look.readWord("search", scene.look.search));
     SEROSA_TRY(look.read("search_step", scene.look.searchStep));
     SEROSA_TRY(look.read("skip_empty", scene.look.skipEmpty));
+    SEROSA_TRY(look.read("coarse_sampling", scene.look.coarseSampling));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));
