@@ -253,7 +253,7 @@ Result<Scene> readScene(const std::filesystem::path& file, std::vector<SceneValu
 
 /// A value that breaks a rule over the whole scene: a time after the end, more frames than can be counted.
 struct SceneProblem {
-    std::string table, key, message; // table: "" or "output"
+    std::string table, key, message; // table: "", "look" or "output"
 };
 /// Whether the scene came from a file or from command line options. Nothing where all rules are kept.
 std::optional<SceneProblem> findSceneProblem(const Scene& scene);

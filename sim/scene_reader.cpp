@@ -222,7 +222,10 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     const SceneTable output(source, "output", "output", outputTable);
     SEROSA_TRY(readOutput(output, scene));
     if (const auto problem = findSceneProblem(scene))
-        return (problem->table.empty() ? top : output).errorAt(problem->key.c_str(), problem->message);
+        return (problem->table.empty()     ? top
+                : problem->table == "look" ? SceneTable(source, "look", "look", look)
+                                           : output)
+            .errorAt(problem->key.c_str(), problem->message);
     return {};
 }
 
