@@ -120,7 +120,7 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.read("shell", scene.look.shell));
     SEROSA_TRY(look.readWord("field", scene.look.field));
     SEROSA_TRY(look.readWord("depth_axis", scene.look.depthAxis));
-    if (look.has("depth_axis") && scene.look.field != Field::depth)
+    if (scene.look.depthAxis != Axis::z && scene.look.field != Field::depth)
         return look.errorAt("depth_axis", "has no effect: set field = \"depth\"");
     SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
     SEROSA_TRY(look.readWord("search", scene.look.search));
