@@ -34,14 +34,12 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
     }
     if (cutVolume_ && cutVolume_->meets(metres.lowest(), metres.highest()))
         cutVolumeUnmet_.clear();
+    frameTime_ = 1 / scene.frameRate;
     Organ organ;
-    const render::VolumeGrid grid =
+    organ.grid =
         render::VolumeGrid::around(metres.lowest(), metres.highest(), scene.look.fieldSamples, kMargin);
-    const double band = scene.look.interior == sim::Interior::shell ? scene.look.shell : 0;
-    SEROSA_ASSIGN(render::DistanceVolume field,
-                  render::DistanceVolume::create(metres, grid, band, render::vertexColours(metres, nullptr)));
-    organ.field = std::make_unique<render::DistanceVolume>(std::move(field));
-    SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, *organ.field));
+    SEROSA_ASSIGN(const render::RayField field, makeField(scene.look, metres, organ));
+    SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(lattice, field));
     organ.caster = std::make_unique<render::Raycaster>(std::move(caster));
     organ.caster->setCutVolume(cutVolume_.get());
     if (moves) {
@@ -72,6 +70,24 @@ Status ImplicitOrgans::readCutVolume(const sim::CutVolume& wanted) {
     return {};
 }
 
+Result<render::RayField> ImplicitOrgans::makeField(const sim::Look& look, const sim::TriangleMesh& metres,
+                                                   Organ& organ) {
+    const std::vector<glm::u8vec4> colours = render::vertexColours(metres, nullptr);
+    if (look.field != sim::Field::distance) {
+        const render::DepthPlan plan{look.field == sim::Field::depth ? render::FieldKind::depth
+                                                                     : render::FieldKind::depthCube,
+                                     int(look.depthAxis)};
+        SEROSA_ASSIGN(render::DepthMaps made, render::DepthMaps::create(metres, organ.grid, plan, colours));
+        organ.depths = std::make_unique<render::DepthMaps>(std::move(made));
+        return organ.depths->field();
+    }
+    const double band = look.interior == sim::Interior::shell ? look.shell : 0;
+    SEROSA_ASSIGN(render::DistanceVolume made,
+                  render::DistanceVolume::create(metres, organ.grid, band, colours));
+    organ.field = std::make_unique<render::DistanceVolume>(std::move(made));
+    return render::RayField::of(*organ.field);
+}
+
 Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector<OpenedSurface>& surfaces) {
     if (!cutVolumeUnmet_.empty())
         return Error{cutVolumeUnmet_};
@@ -86,8 +102,8 @@ Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector
 }
 
 render::StageBox ImplicitOrgans::surfaceBox(std::size_t organ, double time) const {
-    return deformation_->stageBox(
-        time, stage_ == sim::Stage::composite ? kSeam * organs_[organ].field->grid().step : 0);
+    return deformation_->stageBox(time,
+                                  stage_ == sim::Stage::composite ? kSeam * organs_[organ].grid.step : 0);
 }
 
 Status ImplicitOrgans::place(double time) {
@@ -97,6 +113,7 @@ Status ImplicitOrgans::place(double time) {
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         SEROSA_ASSIGN(const std::optional<render::Warp> warp, deformation_->at(i, time));
         organs_[i].caster->setWarp(warp);
+        organs_[i].caster->setMotion(deformation_->motionAt(i, time, frameTime_));
         if (stage_ != sim::Stage::whole)
             organs_[i].caster->setStage(surfaceBox(i, time));
     }
@@ -117,7 +134,7 @@ std::vector<render::Raycaster*> ImplicitOrgans::casters(const std::vector<const 
     std::vector<render::Raycaster*> all;
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         if (organs_[i].lattice) {
-            const Status updated = organs_[i].lattice->update(*states[i], drawn.cutMask(i));
+            const Status updated = organs_[i].lattice->update(*states[i], drawn.cutMask(i), organs_[i].steps);
             SEROSA_CHECK(updated.ok(), "the driver compiles GLSL 4.5");
         }
         all.push_back(organs_[i].caster.get());

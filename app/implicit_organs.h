@@ -4,6 +4,7 @@
 
 #include "app/scene_deformation.h"
 #include "base/result.h"
+#include "render/depth_maps.h"
 #include "render/raycaster.h"
 #include "render/surface_renderer.h"
 #include "sim/scene.h"
@@ -19,8 +20,8 @@ namespace serosa::app {
 
 class ImplicitOrgans {
 public:
-    /// Adds an organ: its distance field, its lattice's displacement. Errors: an open surface, of the
-    /// shaders. \param moves its lattice is asked where tissue is
+    /// Adds an organ: its distance field or depth maps, its lattice's displacement. Errors: an open surface,
+    /// of the shaders. \param moves its lattice is asked where tissue is
     Status add(const sim::Scene& scene, const sim::TriangleMesh& metres, const sim::Lattice& lattice,
                const sim::TextureLayout& layout, bool moves);
     /// What the surface pass leaves to the box of a scene that is drawn in two stages (look.stage); after all
@@ -38,6 +39,8 @@ public:
     std::vector<std::string> notes() const {
         return deformation_ ? deformation_->notes() : std::vector<std::string>();
     }
+    /// How many steps an organ takes in a frame: its increments then say how fast it moves.
+    void setSteps(std::size_t organ, int steps) { organs_[organ].steps = steps; }
     bool empty() const { return organs_.empty(); }
     /// Casters of the organs as their states have them, in the order in which they were added. \param drawn
     /// has their cut masks
@@ -45,12 +48,17 @@ public:
                                             const render::SurfaceRenderer& drawn);
 
 private:
-    struct Organ { // kept where it is: parts point at each other
-        std::unique_ptr<render::DistanceVolume> field;
+    struct Organ {                                     // kept where it is: parts point at each other
+        std::unique_ptr<render::DistanceVolume> field; // or
+        std::unique_ptr<render::DepthMaps> depths;
+        render::VolumeGrid grid;
+        int steps = 0; // a frame
         std::unique_ptr<render::LatticeWarp> lattice;
         std::unique_ptr<render::Raycaster> caster;
     };
     Status readCutVolume(const sim::CutVolume& wanted);
+    static Result<render::RayField> makeField(const sim::Look& look, const sim::TriangleMesh& metres,
+                                              Organ& organ);
     Status place(double time);
     render::StageBox surfaceBox(std::size_t organ, double time) const;
 
@@ -59,6 +67,7 @@ private:
     std::string cutVolumeUnmet_; // what is wrong while no organ has met it
     bool placed_ = false;        // once
     sim::Stage stage_ = sim::Stage::whole;
+    double frameTime_ = 0; // s
     std::vector<Organ> organs_;
 };
 

@@ -238,6 +238,9 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
         surfaces.push_back({&organ->lattice, &organ->surface.metres, &organ->binding});
     SEROSA_TRY(parts.implicit.open(*parts.renderer, surfaces));
     SEROSA_TRY(makeGroup(parts));
+    for (std::size_t i = 0; i < parts.organs.size() && !parts.implicit.empty(); ++i)
+        if (parts.organs[i]->solver)
+            parts.implicit.setSteps(i, parts.organs[i]->step.stepsPerFrame);
     parts.levels.resize(parts.organs.size());
     for (std::size_t i = 0; i < parts.organs.size(); ++i)
         SEROSA_TRY(OrganLevels::prepare(options, parts, i));

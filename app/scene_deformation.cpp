@@ -196,6 +196,26 @@ Result<std::optional<render::Warp>> SceneDeformation::at(std::size_t organ, doub
     return std::optional(render::Warp{&*chain.texture, chain.mapping});
 }
 
+glm::dmat4 SceneDeformation::motionAt(std::size_t organ, double time, double while_) const {
+    glm::dmat4 furthest(1);
+    double most = 0;
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        if (!scene_.deformations[i].isOf(organ))
+            continue;
+        const glm::dmat4 now = warpOf(i, time).mapping.objectFromLocal,
+                         before = warpOf(i, time - while_).mapping.objectFromLocal;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec4 at((glm::dvec3(sim::cornerOffset(corner)) * 2.0 - 1.0) * textures_[i].half(), 1);
+            const double way = glm::length(now * at - before * at);
+            if (way > most) {
+                most = way;
+                furthest = before * glm::inverse(now);
+            }
+        }
+    }
+    return furthest;
+}
+
 bool SceneDeformation::moves() const {
     return std::any_of(scene_.deformations.begin(), scene_.deformations.end(),
                        [](const sim::Deformation& one) { return one.keys.size() > 1; });

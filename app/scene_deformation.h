@@ -32,6 +32,9 @@ public:
     /// An organ's warp at a time; it points into this, until the next call for another time. Nothing: none of
     /// the deformations is of this organ.
     Result<std::optional<render::Warp>> at(std::size_t organ, double time);
+    /// What takes a place of its box at a time to where it was a while (s) before, m; of several boxes of
+    /// the organ, of the one that goes furthest.
+    glm::dmat4 motionAt(std::size_t organ, double time, double while_) const;
     /// Does it go anywhere?
     bool moves() const;
     /// The box of a scene that is drawn in two stages, at a time. \param seam m

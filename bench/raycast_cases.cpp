@@ -5,6 +5,7 @@
 #include "gpu/gl.h"
 #include "gpu/handles.h"
 #include "models/phantom.h"
+#include "render/depth_maps.h"
 #include "render/raycast_measures.h"
 
 #include <memory>
@@ -29,6 +30,9 @@ constexpr Model kModels[] = {
     {"hand", 18905, 18905}, {"liver", 72027, 72027}, {"dragon", 43244, 172974}, {"heart", 54464, 871414}};
 /// How far the box is from filling the picture.
 constexpr double kZooms[] = {2.6, 1.6, 1.1};
+
+/// For what is small on the screen (section 6.3).
+constexpr double kFar = 12;
 
 /// What is drawn, and how. Continuous: the same displacement, of which nothing is cut away.
 struct Way {
@@ -80,6 +84,8 @@ private:
 struct Subject {
     std::string name;
     std::size_t faces = 0;
+    sim::TriangleMesh mesh; // m
+    render::TextureMapping mapping;
     glm::dvec3 lowest{0}, highest{0};
     sim::Lattice space;
     std::unique_ptr<render::DistanceVolume> field;
@@ -101,6 +107,23 @@ struct Subject {
             covered += slab.x < slab.y;
         }
         return double(covered) / pixels;
+    }
+};
+
+/// Its knife's cut, the body taken from depth maps.
+struct DepthSubject {
+    std::unique_ptr<render::DepthMaps> maps;
+    std::unique_ptr<render::Raycaster> cut;
+
+    static Result<DepthSubject> of(const Subject& subject, const render::DepthPlan& plan) {
+        DepthSubject made;
+        SEROSA_ASSIGN(render::DepthMaps maps,
+                      render::DepthMaps::create(subject.mesh, subject.field->grid(), plan));
+        made.maps = std::make_unique<render::DepthMaps>(std::move(maps));
+        SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(subject.space, made.maps->field()));
+        caster.setWarp(render::Warp{subject.knife.get(), subject.mapping});
+        made.cut = std::make_unique<render::Raycaster>(std::move(caster));
+        return made;
     }
 };
 
@@ -129,7 +152,7 @@ Result<std::unique_ptr<Subject>> subjectOf(const Model& model) {
                   render::DistanceVolume::create(
                       mesh, render::VolumeGrid::around(made->lowest, made->highest, kSamples, kMargin), 0));
     made->field = std::make_unique<render::DistanceVolume>(std::move(field));
-    render::TextureMapping mapping;
+    render::TextureMapping& mapping = made->mapping;
     mapping.objectFromLocal[3] = glm::dvec4(0.5 * (made->lowest + made->highest), 1);
     const auto casterOf =
         [&](const render::DeformationTexture* texture) -> Result<std::unique_ptr<render::Raycaster>> {
@@ -152,6 +175,7 @@ Result<std::unique_ptr<Subject>> subjectOf(const Model& model) {
     SEROSA_ASSIGN(made->twisted, casterOf(made->twist.get()));
     SEROSA_ASSIGN(made->continuous, casterOf(made->whole.get()));
     SEROSA_ASSIGN(made->cut, casterOf(made->knife.get()));
+    made->mesh = std::move(mesh);
     return made;
 }
 
@@ -276,6 +300,22 @@ Status benchRaycast(const Options& options, Report& report) {
     linear.step = render::RaycastLook().step;
     add("linear, default step", *fine.twisted, view, linear);
     add("plain, linear", *fine.plain, view, linear);
+    // The same knife's cut of other fields (section 6.1), and few samples of what is far away (6.3).
+    const Subject& shape = *subjects[1];
+    SEROSA_ASSIGN(const DepthSubject cube, DepthSubject::of(shape, {render::FieldKind::depthCube, 0}));
+    SEROSA_ASSIGN(const DepthSubject pair, DepthSubject::of(shape, {render::FieldKind::depth, 1}));
+    const render::RaycastView near = shape.view(kZooms[1]);
+    render::RaycastLook every;
+    every.skipField = false;
+    add("distance field", *shape.cut, near, {});
+    add("distance field, no skipping by it", *shape.cut, near, every);
+    add("depth-map cube", *cube.cut, near, {});
+    add("depth map", *pair.cut, near, {});
+    const render::RaycastView far = shape.view(kFar);
+    render::RaycastLook few;
+    few.coarse = 0.5;
+    add("small", *shape.cut, far, {});
+    add("small, coarse", *shape.cut, far, few);
     rounds.measure(options.rounds, options.seconds);
     SEROSA_TRY(status);
 
@@ -321,6 +361,22 @@ Status benchRaycast(const Options& options, Report& report) {
     }
     report.line("\nMemory of maps, 8 w h d bytes.\n");
     report.table({"map", "texels", "KiB"}, memory);
+    std::vector<std::vector<std::string>> fields;
+    const auto bytesOf = [](std::size_t bytes) { return std::to_string(bytes / 1024); };
+    const std::size_t volume = shape.field->texture().bytes();
+    fields.push_back({"distance field", bytesOf(volume), figure(rounds.milliseconds("distance field"))});
+    fields.push_back({"distance field, no skipping by it", bytesOf(volume),
+                      figure(rounds.milliseconds("distance field, no skipping by it"))});
+    fields.push_back(
+        {"depth-map cube", bytesOf(cube.maps->bytes()), figure(rounds.milliseconds("depth-map cube"))});
+    fields.push_back({"depth map", bytesOf(pair.maps->bytes()), figure(rounds.milliseconds("depth map"))});
+    report.line("\nA knife's cut in " + shape.name + ", by what the body is taken from.\n");
+    report.table({"field", "KiB", "ms"}, fields);
+    report.ratio("raycast_depth_cube_over_distance",
+                 rounds.ratio("depth-map cube", "distance field, no skipping by it"));
+    report.ratio("raycast_depth_over_distance",
+                 rounds.ratio("depth map", "distance field, no skipping by it"));
+    report.ratio("raycast_small_coarse_over_full", rounds.ratio("small, coarse", "small"));
     const double mean = std::accumulate(shares.begin(), shares.end(), 0.0) / double(shares.size());
     report.ratio("raycast_cuts_over_continuous",
                  {mean, *std::min_element(shares.begin(), shares.end()),

@@ -69,6 +69,8 @@ Result<LatticeWarp> LatticeWarp::create(const sim::Lattice& lattice, const sim::
     made.layout_ = &layout;
     SEROSA_ASSIGN(made.frame_, gpu::Program::create(gpu::ShaderLibrary(), {"lattice_warp_bounds.comp"},
                                                     {{"WARP_FRAME", "1"}}));
+    SEROSA_ASSIGN(made.ways_, gpu::Program::create(gpu::ShaderLibrary(), {"lattice_warp_bounds.comp"},
+                                                   {{"WARP_WAYS", "1"}}));
     SEROSA_ASSIGN(made.whole_, compile({}));
     return made;
 }
@@ -100,7 +102,7 @@ void LatticeWarp::setNodes(gpu::Program& program, const sim::StateTextures& stat
     program.buffer("b_cells", cells_).buffer("b_box", box_);
 }
 
-Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask) {
+Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask, int steps) {
     if (mask && !cut_)
         SEROSA_TRY(openSides());
     mask_ = mask;
@@ -122,8 +124,14 @@ Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask)
                                                            : sideNodes_->below());
         programs.bounds.dispatch({int(nodeCount_), 1, 1});
     }
+    if (steps > 0) {
+        ways_.set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
+        ways_.texture("t_increments", state.increments());
+        ways_.dispatch({int(nodeCount_), 1, 1});
+    }
     barrier();
     frame_.set("u_size", size()).buffer("b_box", box_);
+    frame_.set("u_wayShare", float(steps / (SRS_WAY_UNITS * double(nodeCount_))));
     frame_.dispatch({1, 1, 1});
     barrier();
     setNodes(programs.claim, state);

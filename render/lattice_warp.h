@@ -3,7 +3,8 @@
 // field, made anew on the GPU for each picture. Nothing is read back.
 //
 // The field takes a place of a cell to where its eight corners carry it, trilinearly. Its inverse:
-// 1. bounds of the nodes, which the texture's box holds with a voxel to spare;
+// 1. bounds of the nodes (and how far they go in a frame, in the mean), which the texture's box holds with a
+// voxel to spare;
 // 2. each cell goes over the voxels near it, inverts the trilinear map there (Newton), and claims those that
 //    lie in it or, with less right, less than SRS_WARP_REACH of a cell beside it (an atomic minimum over how
 //    far outside, then the cell's index): where tissue folds, the cell that holds a point first has it;
@@ -40,8 +41,9 @@ public:
                                       double voxels = 2);
 
     /// The inverse of this state, from now on. \param mask of the same lattice, which outlives this: what
-    /// blades cut; null: nothing. Errors: of the shaders, when first cut.
-    Status update(const sim::StateTextures& state, const CutMask* mask = nullptr);
+    /// blades cut; null: nothing. \param steps a frame, each as long as the state's increments: how fast it
+    /// moves; 0: it rests. Errors: of the shaders, when first cut.
+    Status update(const sim::StateTextures& state, const CutMask* mask = nullptr, int steps = 0);
     /// Is the inverse of two sides?
     bool isCut() const { return mask_ != nullptr; }
     /// Sets what shaders/raycast_lattice.glsl asks for.
@@ -74,7 +76,7 @@ private:
     std::array<gpu::Texture3D, 2> sides_; // the second where it was cut
     gpu::Texture3D owner_;
     gpu::Buffer cells_, nodes_, box_;
-    gpu::Program frame_;
+    gpu::Program frame_, ways_;
     Programs whole_;
     std::optional<Programs> cut_;
     std::optional<SideNodes> sideNodes_;

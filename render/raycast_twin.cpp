@@ -10,37 +10,47 @@ namespace {
 
 constexpr int kBisections = 40;
 
+/// Trilinear between voxels, and beyond the grid the way to it more.
+struct SampledField {
+    std::vector<float> values;
+    VolumeGrid grid;
+
+    double operator()(const glm::dvec3& rest) const {
+        const glm::dvec3 at = (rest - grid.lowest) / grid.step,
+                         within = glm::clamp(at, glm::dvec3(0), glm::dvec3(grid.size - 1));
+        const glm::ivec3 cell = glm::min(glm::ivec3(within), grid.size - 2);
+        const glm::dvec3 share = within - glm::dvec3(cell);
+        double sum = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+            const std::size_t index =
+                std::size_t(cell.x + x) +
+                std::size_t(grid.size.x) *
+                    (std::size_t(cell.y + y) + std::size_t(grid.size.y) * std::size_t(cell.z + z));
+            sum += (x ? share.x : 1 - share.x) * (y ? share.y : 1 - share.y) * (z ? share.z : 1 - share.z) *
+                   values[index];
+        }
+        return sum + grid.step * glm::distance(at, within);
+    }
+};
+
 } // namespace
 
 RaycastTwin::RaycastTwin(std::vector<float> field, const VolumeGrid& grid, const Warp& warp, Solid solid,
                          double thickness, double step)
-    : values_(std::move(field)), grid_(grid), warp_(warp), solid_(solid), thickness_(thickness), step_(step) {
-}
+    : RaycastTwin(SampledField{std::move(field), grid}, grid.step, warp, solid, thickness, step) {}
 
-double RaycastTwin::field(const glm::dvec3& rest) const {
-    const glm::dvec3 at = (rest - grid_.lowest) / grid_.step,
-                     within = glm::clamp(at, glm::dvec3(0), glm::dvec3(grid_.size - 1));
-    const glm::ivec3 cell = glm::min(glm::ivec3(within), grid_.size - 2);
-    const glm::dvec3 share = within - glm::dvec3(cell);
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        const std::size_t index =
-            std::size_t(cell.x + x) +
-            std::size_t(grid_.size.x) *
-                (std::size_t(cell.y + y) + std::size_t(grid_.size.y) * std::size_t(cell.z + z));
-        sum += (x ? share.x : 1 - share.x) * (y ? share.y : 1 - share.y) * (z ? share.z : 1 - share.z) *
-               values_[index];
-    }
-    return sum + grid_.step * glm::distance(at, within);
-}
+RaycastTwin::RaycastTwin(std::function<double(const glm::dvec3& rest)> field, double voxel, const Warp& warp,
+                         Solid solid, double thickness, double step)
+    : field_(std::move(field)), voxel_(voxel), warp_(warp), solid_(solid), thickness_(thickness),
+      step_(step) {}
 
 glm::dvec3 RaycastTwin::fieldGradient(const glm::dvec3& rest) const {
     glm::dvec3 gradient(0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 by(0);
-        by[axis] = grid_.step;
-        gradient[axis] = (field(rest + by) - field(rest - by)) / (2 * grid_.step);
+        by[axis] = voxel_;
+        gradient[axis] = (field(rest + by) - field(rest - by)) / (2 * voxel_);
     }
     return gradient;
 }

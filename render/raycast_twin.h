@@ -6,6 +6,7 @@
 #include "render/deformation_texture.h"
 #include "render/raycaster.h"
 
+#include <functional>
 #include <vector>
 
 namespace serosa::render {
@@ -15,11 +16,15 @@ public:
     /// \param field m, one a voxel of the grid. \param step between samples, m
     RaycastTwin(std::vector<float> field, const VolumeGrid& grid, const Warp& warp, Solid solid,
                 double thickness, double step);
+    /// The same of another body. \param field m, negative inside. \param voxel m: its gradient is taken over
+    /// two
+    RaycastTwin(std::function<double(const glm::dvec3& rest)> field, double voxel, const Warp& warp,
+                Solid solid, double thickness, double step);
 
     /// The first thing that a ray meets between two distances along it, m. Probe::t from `from` on.
     RaycastProbe cast(const glm::dvec3& from, const glm::dvec3& along, double start, double end) const;
-    /// Signed distance at rest, m.
-    double field(const glm::dvec3& rest) const;
+    /// Of the body at rest, m; negative inside.
+    double field(const glm::dvec3& rest) const { return field_(rest); }
 
 private:
     struct Place {
@@ -30,8 +35,8 @@ private:
     Place at(const glm::dvec3& shown) const;
     glm::dvec3 fieldGradient(const glm::dvec3& rest) const;
 
-    std::vector<float> values_;
-    VolumeGrid grid_;
+    std::function<double(const glm::dvec3&)> field_;
+    double voxel_; // m
     Warp warp_;
     Solid solid_;
     double thickness_, step_;

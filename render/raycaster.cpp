@@ -12,6 +12,7 @@ namespace serosa::render {
 namespace {
 
 constexpr double kBehind = 1;       // voxels of the field, where the surface itself is drawn, too
+constexpr double kCoarse = 0.5;     // of a pixel: CS07 section 6.3
 constexpr double kThreshold = 0.04; // of an organ's longest side: CS07 figure 3
 
 GLenum glFormat(TexelFormat format) {
@@ -38,6 +39,7 @@ RaycastLook raycastLook(const sim::Look& look) {
                   : look.search == sim::RaySearch::threshold ? Search::threshold
                                                              : Search::jacobian;
     made.step = look.searchStep;
+    made.coarse = look.coarseSampling ? kCoarse : 0;
     made.threshold = kThreshold * look.fieldSamples;
     made.skipField = made.skipCut = look.skipEmpty;
     made.thickness = look.shell;
@@ -45,9 +47,9 @@ RaycastLook raycastLook(const sim::Look& look) {
     return made;
 }
 
-Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceVolume& volume) {
+Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const RayField& field) {
     Raycaster made;
-    made.volume_ = &volume;
+    made.field_ = field;
     made.origin_ = lattice.toWorld(glm::dvec3(0));
     made.unit_ = lattice.spacing;
     made.empty_ = gpu::VertexArray("deformation shader");
@@ -57,10 +59,11 @@ Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const DistanceV
 }
 
 void Raycaster::setWarp(const std::optional<Warp>& warp) {
-    const VolumeGrid& grid = volume_->grid();
+    const VolumeGrid& grid = field_.grid;
     lowest_ = grid.lowest;
     highest_ = grid.lowest + grid.step * glm::dvec3(grid.size - 1);
     mapping_.reset();
+    beforeFromNow_ = glm::dmat4(1);
     if (!warp)
         return;
     const DeformationTexture& texture = *warp->texture;
@@ -83,8 +86,8 @@ void Raycaster::setStage(const std::optional<StageBox>& stage) {
     if (!stage)
         return;
     const TextureMapping::Bounds box = stage->mapping.boundsOf(stage->half);
-    lowest_ = glm::max(lowest_, box.lowest - volume_->grid().step);
-    highest_ = glm::min(highest_, box.highest + volume_->grid().step);
+    lowest_ = glm::max(lowest_, box.lowest - field_.grid.step);
+    highest_ = glm::min(highest_, box.highest + field_.grid.step);
 }
 
 void Raycaster::upload(const DeformationTexture& texture) {
@@ -107,7 +110,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
     if (found != programs_.end())
         return &found->second;
     std::vector<gpu::ShaderDefine> defines = {{"RAYCAST_SOLID", std::to_string(int(variant.solid))},
-                                              {"RAYCAST_SEARCH", std::to_string(int(variant.search))}};
+                                              {"RAYCAST_SEARCH", std::to_string(int(variant.search))},
+                                              {"RAYCAST_FIELD", std::to_string(int(variant.field))}};
     if (variant.skip)
         defines.push_back({"RAYCAST_SKIP", std::to_string(variant.skip)});
     if (variant.lattice)
@@ -128,6 +132,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_VOLUME", std::to_string(variant.volume)});
     if (variant.samples)
         defines.push_back({"RAYCAST_SAMPLES", "1"});
+    if (variant.coarse)
+        defines.push_back({"RAYCAST_COARSE", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
     SEROSA_ASSIGN(gpu::Program made,
@@ -138,13 +144,15 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     const bool wound = mapping_ && mapping_->cylinderRadius > 0;
     const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
+    const bool skipField = look.skipField && field_.kind == FieldKind::distance; // depths are no distances
     SEROSA_ASSIGN(
         gpu::Program* const made,
-        program({look.solid, look.search, look.normals, int(look.skipField) + 2 * int(look.skipCut), volume,
-                 lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
-                 stage_.has_value(), volume_->colours() && !probe, look.antialias && !probe, probe}));
+        program({look.solid, look.search, look.normals, field_.kind, int(skipField) + 2 * int(look.skipCut),
+                 volume, lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
+                 stage_.has_value(), field_.colours != nullptr && !probe, look.coarse > 0,
+                 look.antialias && !probe, probe}));
     gpu::Program& program = *made;
-    const VolumeGrid& grid = volume_->grid();
+    const VolumeGrid& grid = field_.grid;
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
     program.set("u_clipFromLattice", frame.clipFromLattice);
     if (lattice_)
@@ -155,13 +163,25 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     program.set("u_boxSize", float(glm::distance(lowest_, highest_) / unit_));
     const double voxel = grid.step / unit_;
     program.set("u_fieldLowest", glm::vec3(toObject(grid.lowest))).set("u_fieldStep", float(voxel));
-    program.texture("t_field", volume_->texture());
+    if (field_.kind == FieldKind::distance)
+        program.texture("t_field", *field_.values);
+    else
+        program.texture("t_depths", *field_.values).set("u_gridMost", glm::vec3(grid.size - 1));
+    if (field_.kind == FieldKind::depth)
+        program.set("u_depthAxis", field_.axis);
     program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
     program.set("u_thickness", float(look.thickness / unit_));
     program.set("u_behind", float(look.closes ? kBehind * voxel : 0));
+    glm::dmat4 objectFromWorld(1 / unit_);
+    objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
+    if (look.coarse > 0) {
+        const glm::mat4 rows = glm::transpose(frame.clipFromLattice);
+        program.set("u_pixel", 2 / (frame.size.y * glm::length(glm::vec3(rows[1]))) * rows[3]);
+        program.set("u_coarse", float(look.coarse));
+        program.set("u_beforeFromNow",
+                    glm::mat4(objectFromWorld * beforeFromNow_ * glm::inverse(objectFromWorld)));
+    }
     if (mapping_) {
-        glm::dmat4 objectFromWorld(1 / unit_);
-        objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
         const glm::dmat4 objectFromLocal = objectFromWorld * mapping_->objectFromLocal;
         program.set("u_objectFromLocal", glm::mat4(objectFromLocal));
         program.set("u_localFromObject", glm::mat4(glm::inverse(objectFromLocal)));
@@ -191,8 +211,8 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
             worldFromObject[3] = glm::dvec4(origin_, 1);
             cutVolume_->set(program, worldFromObject);
         }
-        if (volume_->colours())
-            program.texture("t_colours", *volume_->colours());
+        if (field_.colours)
+            program.texture("t_colours", *field_.colours);
         else
             program.set("u_skin", look.skin);
     }
@@ -242,7 +262,8 @@ Result<std::vector<RaycastProbe>> Raycaster::probe(const Frame& frame, const Ray
         const std::size_t row = std::size_t(height) - 1 - i / std::size_t(width),
                           from = row * std::size_t(width) + i % std::size_t(width);
         RaycastProbe& one = probes[i];
-        one.kind = int(r[from].w);
+        one.kind = int(r[from].w) % 4;
+        one.samples = int(r[from].w) / 4;
         one.t = unit_ * n[from].w;
         one.normal = glm::dvec3(n[from]);
         one.rest = origin_ + unit_ * glm::dvec3(r[from]);

@@ -11,9 +11,9 @@
 #include "gpu/program.h"
 #include "render/cut_volume.h"
 #include "render/deformation_texture.h"
-#include "render/distance_volume.h"
 #include "render/frame.h"
 #include "render/lattice_warp.h"
+#include "render/ray_field.h"
 #include "render/stage_box.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
@@ -44,13 +44,14 @@ enum class Normals { warped, gradient }; // eq. 5; of the deformed field
 struct RaycastLook {
     Solid solid = Solid::solid;
     Search search = Search::jacobian;
-    double step = 0.5;        // between samples, voxels of the distance field
-    double threshold = 1;     // Search::threshold: nearer than this, voxels, steps are a quarter
+    double step = 0.5;    // between samples, voxels of the distance field
+    double coarse = 0;    // share of a pixel and of a frame's way that samples may lie apart (section 6.3)
+    double threshold = 1; // Search::threshold: nearer than this, voxels, steps are a quarter
     double thickness = 0.008; // of a shell, m
     bool closes = false;      // a surface that is drawn beside it: all but faces of cuts lies a little behind
     Normals normals = Normals::warped;
     bool antialias = false; // a ray for each sample of a pixel
-    bool skipField = true;  // empty space, by the distance field
+    bool skipField = true;  // empty space, by the distance field; depth maps know no way to skip
     bool skipCut = true;    // what a map's mask cuts away, by the distance to what it keeps
     glm::vec3 skin{0.342F, 0.048F, 0.037F}, inner{0.45F, 0.2F, 0.14F}, flesh{0.42F, 0.085F, 0.07F}; // linear
 };
@@ -62,17 +63,23 @@ RaycastLook raycastLook(const sim::Look& look);
 struct RaycastProbe {
     enum Kind { nothing = 0, surface = 1, innerSide = 2, cutFace = 3 };
     int kind = nothing;
+    int samples = 0;               // that the search took, refining apart
     double t = 0;                  // along the ray from the eye, m; orthographic: from the box's far face
     glm::dvec3 normal{0}, rest{0}; // unit; m
 };
 
 class Raycaster {
 public:
-    /// \param volume outlives this
-    static Result<Raycaster> create(const sim::Lattice& lattice, const DistanceVolume& volume);
+    /// \param field its textures outlive this
+    static Result<Raycaster> create(const sim::Lattice& lattice, const RayField& field);
+    static Result<Raycaster> create(const sim::Lattice& lattice, const DistanceVolume& volume) {
+        return create(lattice, RayField::of(volume));
+    }
 
     /// From now on; nothing: at rest. \param worldFromLocal of mapping: m
     void setWarp(const std::optional<Warp>& warp);
+    /// What is in the warp's box now was here a frame ago, m; from now on. setWarp() puts it back to rest.
+    void setMotion(const glm::dmat4& beforeFromNow) { beforeFromNow_ = beforeFromNow; }
     /// The organ as its lattice has it, from now on; null: at rest. A warp then acts on the organ at rest.
     /// \param lattice outlives this
     void setLattice(const LatticeWarp* lattice) { lattice_ = lattice; }
@@ -96,9 +103,10 @@ private:
         Solid solid;
         Search search;
         Normals normals;
+        FieldKind field;
         int skip;   // 1 by the field, 2 by the cut
         int volume; // CutVolume::kind(), 0: none
-        bool lattice, cut, warped, wound, staged, coloured, samples, probe;
+        bool lattice, cut, warped, wound, staged, coloured, coarse, samples, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -106,7 +114,7 @@ private:
     void upload(const DeformationTexture& texture);
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
-    const DistanceVolume* volume_ = nullptr;
+    RayField field_;
     const LatticeWarp* lattice_ = nullptr;
     const CutVolume* cutVolume_ = nullptr;
     glm::dvec3 origin_{0}; // m: of object space
@@ -118,6 +126,7 @@ private:
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m
+    glm::dmat4 beforeFromNow_{1};           // m
     std::optional<StageBox> stage_;
     glm::dvec3 lowest_{0}, highest_{0};
     gpu::VertexArray empty_;

@@ -1,7 +1,8 @@
 // The box of a lattice's displacement texture (render/lattice_warp.h), made on the GPU.
 layout(std430) restrict buffer b_box {
     uint b_bound[6]; // of the nodes, as ordered words: lowest x, y, z, highest
-    uint b_spare[2];
+    uint b_sum;  // over the nodes: way in a step, SRS_WAY_UNITS a lattice unit
+    float b_way; // in a frame, the nodes' mean, lattice units
     vec4 b_lowest; // middle of voxel (0, 0, 0), lattice units
     vec4 b_step;   // of a voxel, along each axis
 };

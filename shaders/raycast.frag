@@ -1,6 +1,6 @@
 #version 450 core
 // The deformation shader (CS07): a ray a pixel, warped back to rest sample by sample, until it meets the distance field there.
-// RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; kind and rest position.
+// RAYCAST_PROBE: what was hit, as numbers: normal and distance along the ray; rest position, kind and samples.
 #include "shared_constants.h"
 #include "raycast_search.glsl"
 #include "lighting.glsl"
@@ -22,14 +22,14 @@ uniform float u_seamLift; // object space: the field and the surface differ by l
 #endif
 uniform vec3 u_inner, u_flesh; // linear: inner side of a hollow or thick one, cut faces
 #ifdef RAYCAST_COLOURED
-uniform sampler3D t_colours; // square root of the linear colour outside; light that arrives (render/distance_volume.h)
+uniform sampler3D t_colours; // square root of the linear colour outside; light that arrives (render/ray_field.h)
 #else
 uniform vec3 u_skin; // linear: outside
 #endif
 
 #ifdef RAYCAST_PROBE
 layout(location = 0) out vec4 o_normal; // xyz, t
-layout(location = 1) out vec4 o_rest;   // xyz; w 1 surface, 2 its inner side, 3 cut face
+layout(location = 1) out vec4 o_rest;   // xyz; w 1 surface, 2 its inner side, 3 cut face; 4 a sample more
 #else
 out vec4 o_colour;
 #endif
@@ -41,8 +41,12 @@ const float kVolumeRoughness = 0.42;
 /// Linear colour outside at rest, and light of the surround that arrives.
 vec4 skinAt(vec3 rest) {
 #ifdef RAYCAST_COLOURED
-    vec3 size = vec3(textureSize(t_colours, 0));
-    vec4 read = texture(t_colours, ((rest - u_fieldLowest) / u_fieldStep + 0.5) / size);
+    vec3 at = (rest - u_fieldLowest) / u_fieldStep;
+#if RAYCAST_FIELD == SRS_FIELD_DISTANCE
+    vec4 read = texture(t_colours, (at + 0.5) / vec3(textureSize(t_colours, 0)));
+#else
+    vec4 read = texture(t_colours, depthColourAt(at));
+#endif
     return vec4(read.rgb * read.rgb, read.a);
 #else
     return vec4(u_skin, 1.0);
@@ -71,8 +75,17 @@ void main() {
     if (range.x >= range.y)
         discard;
     Hit hit = castRay(from, along, range.x, range.y);
+#ifdef RAYCAST_PROBE
+    if (!hit.any) { // what it cost counts, too
+        gl_FragDepth = 0.9999;
+        o_normal = vec4(0.0);
+        o_rest = vec4(0.0, 0.0, 0.0, float(4 * hit.samples));
+        return;
+    }
+#else
     if (!hit.any)
         discard;
+#endif
     vec3 shown = from + hit.t * along, n = hitNormal(shown, hit);
     float behind = hit.face ? 0.0 : u_behind;
 #ifdef RAYCAST_STAGE
@@ -84,7 +97,7 @@ void main() {
     gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
 #ifdef RAYCAST_PROBE
     o_normal = vec4(n, hit.t);
-    o_rest = vec4(hit.rest, hit.face ? 3.0 : hit.back ? 2.0 : 1.0);
+    o_rest = vec4(hit.rest, (hit.face ? 3.0 : hit.back ? 2.0 : 1.0) + float(4 * hit.samples));
 #else
     vec3 v = -along;
     if (dot(n, v) < 0.02)

@@ -10,6 +10,12 @@
 #define SRS_SOLID_SHELL 2
 #define SRS_SOLID_COMBINED 3 // hollow, by one implicit of object and mask: for comparison
 
+// What the undeformed body is (render/ray_field.h).
+#define SRS_FIELD_DISTANCE 0
+#define SRS_FIELD_DEPTH 1
+#define SRS_FIELD_DEPTH_CUBE 2
+#define SRS_DEPTH_RIM 6 // texels around what a depth map sees, to which it goes on
+
 // How it is searched.
 #define SRS_SEARCH_LINEAR 0
 #define SRS_SEARCH_THRESHOLD 1
@@ -21,6 +27,8 @@
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
 #define SRS_MOST_STEP 2.0     // and never longer
 
+#define SRS_MOST_COARSE 4.0 // of the step: what is small on the screen or fast has no longer one
+
 #define SRS_LIP_STEP 0.1 // of the step: at the lip of a blade's cut they are no shorter
 
 // The lattice's displacement texture (render/lattice_warp.h).
@@ -30,5 +38,6 @@
 #define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
 #define SRS_WARP_STEPS 8            // Newton's
 #define SRS_WARP_GROUP 32
+#define SRS_WAY_UNITS 2048.0 // a lattice unit, of the nodes' ways in a step, which are summed
 
 #endif

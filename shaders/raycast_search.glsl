@@ -54,18 +54,41 @@ float mostStep(Place place) {
 #endif
 }
 
+#ifdef RAYCAST_COARSE
+uniform float u_coarse;        // share of a pixel, and of a frame's way on the screen
+uniform vec4 u_pixel;          // its width at a place, object space
+uniform mat4 u_beforeFromNow;  // object space: where what is in the texture's box was a frame ago
+#endif
+
+/// The step before it adapts. CS07 section 6.3: what is small on the screen or moves fast on it has fewer samples. A sample
+/// need not be nearer than the picture shows: half a pixel, or half of the way that a place takes in a frame.
+float baseStep(vec3 shown, vec3 along, Place place) {
+    float base = u_step;
+#ifdef RAYCAST_COARSE
+    float seen = dot(u_pixel, vec4(shown, 1.0));
+#ifdef RAYCAST_LATTICE
+    seen = max(seen, b_way);
+#endif
+    vec3 way = shown - (u_beforeFromNow * vec4(shown, 1.0)).xyz;
+    if (place.at.inside)
+        seen = max(seen, length(way - dot(way, along) * along));
+    base = clamp(u_coarse * seen, u_step, SRS_MOST_COARSE * u_step);
+#endif
+    return base;
+}
+
 /// Of the next step: eq. 4, clamped where it grows without bound, or by the threshold (Hadwiger et al. 2005). Where space is
 /// skipped a bound on the Jacobian is known: no matter how the ray runs, samples lie no further apart at rest.
-float searchStep(vec3 shown, vec3 along, float body, float stretch) {
+float searchStep(vec3 shown, vec3 along, float body, float stretch, float base) {
 #if RAYCAST_SEARCH == SRS_SEARCH_JACOBIAN
 #ifndef SKIPS
     stretch = length(warpJacobian(shown) * along);
 #endif
-    return u_step * clamp(1.0 / max(stretch, 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
+    return base * clamp(1.0 / max(stretch, 1e-6), SRS_LEAST_STEP, SRS_MOST_STEP);
 #elif RAYCAST_SEARCH == SRS_SEARCH_THRESHOLD
-    return abs(body) < u_threshold ? 0.25 * u_step : u_step;
+    return abs(body) < u_threshold ? 0.25 * base : base;
 #else
-    return u_step;
+    return base;
 #endif
 }
 
@@ -119,7 +142,9 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
             before = now;
             last = t;
             Skip skip = skipFrom(before.at, before.free, t, slab);
-            float by = max(skip.way, min(searchStep(from + t * along, along, before.body, skip.stretch), mostStep(before)));
+            vec3 shown = from + t * along;
+            float next = searchStep(shown, along, before.body, skip.stretch, baseStep(shown, along, before));
+            float by = max(skip.way, min(next, mostStep(before)));
             t = min(t + by, end);
             now = placeAt(from + t * along);
             ++hit.samples;

@@ -70,6 +70,16 @@ std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
                             "has " + std::to_string(output.sheetAt.size()) +
                                 " times, but the contact sheet has " + std::to_string(places) +
                                 " places: raise sheet_columns or sheet_rows"};
+    const Look& look = scene.look;
+    if (look.field != Field::distance && look.show == Show::both)
+        return SceneProblem{
+            "look", "field",
+            "is of depth maps, which fill hollows: beside the surface they would hide it; take "
+            "\"distance\", or show = \"implicit\""};
+    if (look.field != Field::distance && look.search == RaySearch::threshold)
+        return SceneProblem{"look", "search",
+                            "by threshold asks how near the surface is, and depth maps do not know: take "
+                            "\"jacobian\" or \"linear\""};
     return std::nullopt;
 }
 

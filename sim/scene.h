@@ -116,6 +116,9 @@ inline constexpr Mapping kSurfaceMappings[] = {Mapping::triangle,  Mapping::curv
 enum class SurfaceColour { tissue, dynamicNormal, material, plain };
 /// What an organ is drawn as: its surface, or its distance field, ray-cast (docs/methods/raycast.md).
 enum class Show { surface, implicit, both };
+/// What it is taken from, where it is ray-cast (render/ray_field.h).
+enum class Field { distance, depth, depthCube };
+enum class Axis { x, y, z };
 /// What is in it, where it is ray-cast.
 enum class Interior { hollow, solid, shell, combined };
 /// What is drawn of an organ that is ray-cast where its deformation's box is (render/stage_box.h).
@@ -137,14 +140,17 @@ struct Look {
     Show show = Show::surface;
     Stage stage = Stage::whole;
     Interior interior = Interior::solid;
-    double shell = 0.008;  // m: its thickness
-    int fieldSamples = 96; // of the distance field, along the organ's longest side
+    double shell = 0.008; // m: its thickness
+    Field field = Field::distance;
+    Axis depthAxis = Axis::z; // of Field::depth
+    int fieldSamples = 96;    // of the field, along the organ's longest side
     RaySearch search = RaySearch::jacobian;
     double searchStep = 0.5; // voxels of the distance field
     bool skipEmpty = true;
     RayNormals normals = RayNormals::warped;
     bool antialias = false; // a ray for each sample of a pixel
     std::optional<CutVolume> cutVolume;
+    bool coarseSampling = true; // of what is small on the screen, or moves fast there
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
     bool surface = true, lattice = false, tools = true; // what is drawn
@@ -262,7 +268,7 @@ Result<Scene> readScene(const std::filesystem::path& file, std::vector<SceneValu
 
 /// A value that breaks a rule over the whole scene: a time after the end, more frames than can be counted.
 struct SceneProblem {
-    std::string table, key, message; // table: "" or "output"
+    std::string table, key, message; // table: "", "look" or "output"
 };
 /// Whether the scene came from a file or from command line options. Nothing where all rules are kept.
 std::optional<SceneProblem> findSceneProblem(const Scene& scene);

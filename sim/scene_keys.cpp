@@ -354,15 +354,25 @@ std::vector<SceneKey> otherKeys() {
              "implicit: what is seen where it is cut open; combined: hollow, by one implicit of organ and "
              "cut, which misses what is thin beside a sharp cut: for comparison"),
         quantity("look", "shell", Dim::length, kPositive, "\"8 mm\"", "implicit: thickness of a shell"),
+        word("look", "field", {"distance", "depth", "depth-cube"}, "\"distance\"",
+             "implicit: what the organ at rest is taken from: its distance field; depth maps from both ends "
+             "of "
+             "an axis, or from all six sides, which take less memory and fill what they do not see into"),
+        word("look", "depth_axis", {"x", "y", "z"}, "\"z\"", "field \"depth\": the axis of its maps"),
         plain("look", "field_samples", Kind::integer, {16, 512}, "96",
-              "implicit: samples of the distance field along the organ's longest side"),
+              "implicit: samples of the field along the organ's longest side"),
         word("look", "search", {"linear", "threshold", "jacobian"}, "\"jacobian\"",
              "implicit: how far a ray's samples lie apart: evenly, nearer within 0.04 of the organ's longest "
              "side of its surface, or evenly at rest"),
         plain("look", "search_step", Kind::number, {0.05, 8}, "0.5",
-              "implicit: between samples, of a sample of the distance field"),
-        plain("look", "skip_empty", Kind::boolean, kAny, "true",
-              "implicit: skip space in which a ray meets nothing"),
+              "implicit: between samples, of a sample of the field"),
+        plain(
+            "look", "skip_empty", Kind::boolean, kAny, "true",
+            "implicit: skip space in which a ray meets nothing; with depth maps, only what a cut takes away"),
+        plain(
+            "look", "coarse_sampling", Kind::boolean, kAny, "true",
+            "implicit: samples lie no nearer than the picture shows: half a pixel, and of what moves fast on "
+            "the screen half of its way in a frame; nothing changes where search_step is longer than that"),
         word("look", "normals", {"warped", "gradient"}, "\"warped\"",
              "implicit: the normal at rest, carried by the map's Jacobian; or the gradient of the deformed "
              "field, for comparison"),

@@ -3,9 +3,9 @@
 
 #include "sim/scene_reader_coupling.h"
 #include "sim/scene_reader_deformation.h"
-#include "sim/scene_reader_volume.h"
 #include "sim/scene_reader_organ.h"
 #include "sim/scene_reader_tools.h"
+#include "sim/scene_reader_volume.h"
 #include "sim/scene_table.h"
 
 #include <algorithm>
@@ -119,12 +119,17 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("stage", scene.look.stage));
     SEROSA_TRY(look.readWord("interior", scene.look.interior));
     SEROSA_TRY(look.read("shell", scene.look.shell));
+    SEROSA_TRY(look.readWord("field", scene.look.field));
+    SEROSA_TRY(look.readWord("depth_axis", scene.look.depthAxis));
+    if (scene.look.depthAxis != Axis::z && scene.look.field != Field::depth)
+        return look.errorAt("depth_axis", "has no effect: set field = \"depth\"");
     SEROSA_TRY(look.read("field_samples", scene.look.fieldSamples));
     SEROSA_TRY(look.readWord("search", scene.look.search));
     SEROSA_TRY(look.read("search_step", scene.look.searchStep));
     SEROSA_TRY(look.read("skip_empty", scene.look.skipEmpty));
     SEROSA_TRY(look.readWord("normals", scene.look.normals));
     SEROSA_TRY(look.read("antialias", scene.look.antialias));
+    SEROSA_TRY(look.read("coarse_sampling", scene.look.coarseSampling));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));
@@ -221,7 +226,10 @@ Status readAll(const SceneSource& source, const toml::table& content, const fs::
     const SceneTable output(source, "output", "output", outputTable);
     SEROSA_TRY(readOutput(output, scene));
     if (const auto problem = findSceneProblem(scene))
-        return (problem->table.empty() ? top : output).errorAt(problem->key.c_str(), problem->message);
+        return (problem->table.empty()     ? top
+                : problem->table == "look" ? SceneTable(source, "look", "look", look)
+                                           : output)
+            .errorAt(problem->key.c_str(), problem->message);
     return {};
 }
 

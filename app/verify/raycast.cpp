@@ -47,6 +47,7 @@ Status verifyRaycast(const VerifyOptions& options, CheckList& checks) {
     SEROSA_TRY(verifyRaycastKnown(options, checks));
     SEROSA_TRY(verifyRaycastTwin(options, checks));
     SEROSA_TRY(verifyRaycastWays(options, checks));
+    SEROSA_TRY(verifyRaycastDepth(options, checks));
     return verifyRaycastFigure3(options, checks);
 }
 

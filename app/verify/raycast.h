@@ -26,6 +26,7 @@ inline constexpr double kBallRadius = 0.04; // m
 Result<RaycastModel> raycastBall(int samples);
 
 Status verifyRaycastTwin(const VerifyOptions& options, CheckList& checks);  // app/verify/raycast_twin.cpp
+Status verifyRaycastDepth(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_depth.cpp
 Status verifyRaycastKnown(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_known.cpp
 Status verifyRaycastFigure3(const VerifyOptions& options,
                             CheckList& checks);                            // app/verify/raycast_figure3.cpp
