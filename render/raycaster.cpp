@@ -141,16 +141,32 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
     return &programs_.emplace(variant, std::move(made)).first->second;
 }
 
+bool Raycaster::mayBeCoarse(const RaycastLook& look, const glm::vec4& pixel) const {
+    if (lattice_ || beforeFromNow_ != glm::dmat4(1))
+        return true;
+    double widest = 0; // linear in the place: in a corner
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at = glm::mix(lowest_, highest_, glm::dvec3(sim::cornerOffset(corner)));
+        widest = std::max(widest, double(glm::dot(pixel, glm::vec4((at - origin_) / unit_, 1))));
+    }
+    return look.coarse * widest > look.step * field_.grid.step / unit_;
+}
+
 Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool probe) {
     const bool wound = mapping_ && mapping_->cylinderRadius > 0;
-    const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
     const bool skipField = look.skipField && field_.kind == FieldKind::distance; // depths are no distances
-    SEROSA_ASSIGN(
-        gpu::Program* const made,
-        program({look.solid, look.search, look.normals, field_.kind, int(skipField) + 2 * int(look.skipCut),
-                 volume, lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
-                 stage_.has_value(), field_.colours != nullptr && !probe, look.coarse > 0,
-                 look.antialias && !probe, probe}));
+    glm::dmat4 objectFromWorld(1 / unit_);
+    objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
+    const glm::mat4 rows = glm::transpose(frame.clipFromLattice);
+    const glm::vec4 pixel =
+        2 / (frame.size.y * glm::length(glm::vec3(rows[1]))) * rows[3]; // its width at a place
+    const bool coarse = look.coarse > 0 && mayBeCoarse(look, pixel);
+    const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
+    SEROSA_ASSIGN(gpu::Program* const made,
+                  program({look.solid, look.search, look.normals, field_.kind,
+                           int(skipField) + 2 * int(look.skipCut), volume, lattice_ != nullptr,
+                           lattice_ && lattice_->isCut(), mapping_.has_value(), wound, stage_.has_value(),
+                           field_.colours != nullptr && !probe, look.antialias && !probe, coarse, probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = field_.grid;
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -172,15 +188,11 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
     program.set("u_thickness", float(look.thickness / unit_));
     program.set("u_behind", float(look.closes ? kBehind * voxel : 0));
-    glm::dmat4 objectFromWorld(1 / unit_);
-    objectFromWorld[3] = glm::dvec4(-origin_ / unit_, 1);
-    if (look.coarse > 0) {
-        const glm::mat4 rows = glm::transpose(frame.clipFromLattice);
-        program.set("u_pixel", 2 / (frame.size.y * glm::length(glm::vec3(rows[1]))) * rows[3]);
-        program.set("u_coarse", float(look.coarse));
-        program.set("u_beforeFromNow",
-                    glm::mat4(objectFromWorld * beforeFromNow_ * glm::inverse(objectFromWorld)));
-    }
+    if (coarse)
+        program.set("u_pixel", pixel)
+            .set("u_coarse", float(look.coarse))
+            .set("u_beforeFromNow",
+                 glm::mat4(objectFromWorld * beforeFromNow_ * glm::inverse(objectFromWorld)));
     if (mapping_) {
         const glm::dmat4 objectFromLocal = objectFromWorld * mapping_->objectFromLocal;
         program.set("u_objectFromLocal", glm::mat4(objectFromLocal));

@@ -106,12 +106,14 @@ private:
         FieldKind field;
         int skip;   // 1 by the field, 2 by the cut
         int volume; // CutVolume::kind(), 0: none
-        bool lattice, cut, warped, wound, staged, coloured, coarse, samples, probe;
+        bool lattice, cut, warped, wound, staged, coloured, samples, coarse, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
     Result<gpu::Program*> program(const Variant& variant);
     void upload(const DeformationTexture& texture);
+    /// Can any sample of what is drawn lie further apart than a step? \param pixel its width at a place
+    bool mayBeCoarse(const RaycastLook& look, const glm::vec4& pixel) const;
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
 
     RayField field_;
