@@ -102,6 +102,32 @@ int around(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connec
     return found;
 }
 
+/// How far a place lies from the nearest cut, by the corners of its cell or else by the nodes that a vertex
+/// follows, as CutVertex has it.
+double awayOf(const sim::Lattice& lattice, const std::vector<float>& sides, const glm::dvec3& place,
+              const VertexBinding& bound) {
+    const auto known = [&](std::int64_t node) {
+        return node >= 0 && std::abs(sides[std::size_t(node)]) < float(SRS_MASK_FAR);
+    };
+    const glm::dvec3 low = glm::floor(place), at = place - low;
+    double sum = 0, weights = 0;
+    for (int c = 0; c < 8; ++c) {
+        const glm::ivec3 offset = sim::cornerOffset(c);
+        const std::int64_t node = lattice.nodeAt(glm::ivec3(low) + lattice.centre + offset);
+        const glm::dvec3 w = glm::mix(1.0 - at, at, glm::dvec3(offset));
+        if (known(node)) {
+            sum += w.x * w.y * w.z * sides[std::size_t(node)];
+            weights += w.x * w.y * w.z;
+        }
+    }
+    for (int i = 0; i < 3 && weights < 0.5; ++i)
+        if (known(bound.nodes[i])) {
+            sum += bound.weights[i] * sides[bound.nodes[i]];
+            weights += bound.weights[i];
+        }
+    return weights > 0.1 ? sum / weights : 0;
+}
+
 /// Are all nodes of a vertex on one side of the cuts that are near, and still held?
 bool liesOn(const VertexBinding& vertex, const std::vector<std::uint32_t>& connections,
             const std::vector<float>& sides, int side) {
@@ -131,8 +157,8 @@ private:
     /// Had a node springs to the side?
     bool touches(std::size_t node, int side) const {
         for (int d = 0; d < 18; ++d)
-            if (const std::int64_t other = lattice_.neighbour(node, d);
-                other >= 0 && isOn(std::size_t(other), side))
+            if ((lattice_.connections[node] >> d) & 1U &&
+                isOn(std::size_t(lattice_.neighbour(node, d)), side))
                 return true;
         return false;
     }
@@ -150,8 +176,7 @@ private:
             for (int y = -kSideReach; y <= kSideReach; ++y)
                 for (int x = -kSideReach; x <= kSideReach; ++x) {
                     const std::int64_t other = lattice_.nodeAt(at + glm::ivec3(x, y, z));
-                    if (other >= 0 && connections_[std::size_t(other)] != 0 &&
-                        (isFar(std::size_t(other)) || isOn(std::size_t(other), side)))
+                    if (other >= 0 && connections_[std::size_t(other)] != 0 && isOn(std::size_t(other), side))
                         return true;
                 }
         return false;
@@ -199,7 +224,8 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
         const VertexBinding &own = binding.vertices[v], &before = uncut.vertices[v];
         const auto add = [&](std::optional<VertexBinding> bound) {
             found->second = std::int64_t(surface.vertices.size());
-            surface.vertices.push_back({v, side, bound});
+            surface.vertices.push_back(
+                {v, side, bound, awayOf(lattice, sides, lattice.toLattice(metres.positions[v]), before)});
             return found->second;
         };
         const bool lies = liesOn(own, connections, sides, side);

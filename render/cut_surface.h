@@ -21,7 +21,8 @@ struct CutVertex {
     std::uint32_t vertex = 0; // of the mesh
     int side = 0;             // 1 or -1
     std::optional<VertexBinding>
-        binding; // in the constant basis, exact at rest; none: as the vertex is bound
+        binding;     // in the constant basis, exact at rest; none: as the vertex is bound
+    double away = 0; // from the nearest cut, spacings, by the nodes around; the sign is the side; 0: unknown
 };
 
 struct CutSurface {

@@ -199,6 +199,7 @@ private:
     gpu::Texture2D cells_;                   // of stage inCells
     std::optional<FramePass> frames_;        // of stage nodeFrames
     std::vector<Copy> copies_;               // in the buffers after the surface's vertices
+    std::vector<double> copyAway_;           // CutVertex::away of each
     std::optional<SurfaceStage> blendStage_; // while a switch of detail or of binding fades
     float blendFrame_ = 0, blendStep_ = 0;
     Programs blendPrograms_;

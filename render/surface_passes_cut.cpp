@@ -48,6 +48,7 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
             indices.push_back(newIndex_[drawn_.faces[f][i]]);
     // A copy for each side, and along seams of the texture for each of its coordinates.
     copies_.clear();
+    copyAway_.clear();
     std::vector<VertexCopy> bound;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
     for (std::size_t f = 0; f < cut.copies.size(); ++f)
@@ -58,6 +59,7 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
             if (fresh) {
                 const CutVertex& vertex = cut.vertices[copied];
                 copies_.push_back({vertex.vertex, vertex.side, of});
+                copyAway_.push_back(vertex.away);
                 bound.push_back({vertex.vertex, vertex.binding});
             }
             indices.push_back(found->second);

@@ -111,7 +111,8 @@ void SurfacePasses::createRest(const SurfaceBinding& binding, const sim::Lattice
         const Copy* const copy = i < meshVertices_ ? nullptr : &copies_[i - meshVertices_];
         const std::size_t v = copy ? copy->vertex : i;
         vertices.push_back(restVertex(restBox_, lattice.toLattice(metres.positions[v]), normals[v],
-                                      restAxes(binding, i, lattice, rest), copy ? copy->side : 0));
+                                      restAxes(binding, i, lattice, rest), copy ? copy->side : 0,
+                                      copy ? copyAway_[i - meshVertices_] : 0));
     }
     setRest(stageOf(binding.mapping), vertices);
 }
@@ -121,8 +122,7 @@ void SurfacePasses::createStaticRest(const sim::Lattice& lattice, const sim::Tri
     const TriangleBasis still{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     std::vector<RestVertex> vertices;
     for (std::size_t v = 0; v < normals.size(); ++v)
-        vertices.push_back(
-            restVertex(restBox_, lattice.toLattice(metres.positions[v]), normals[v], still, 0));
+        vertices.push_back(restVertex(restBox_, lattice.toLattice(metres.positions[v]), normals[v], still));
     setRest(SurfaceStage::undeformed, vertices);
 }
 

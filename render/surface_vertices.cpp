@@ -1,6 +1,7 @@
 #include "render/surface_vertices.h"
 
 #include "shaders/mapping_constants.h"
+#include "shaders/shared_constants.h"
 #include "sim/packed_normal.h"
 
 #include <meshoptimizer.h>
@@ -52,11 +53,12 @@ glm::dvec3 anyTangent(const glm::dvec3& n) {
 }
 
 RestVertex restVertex(const RestBox& box, const glm::dvec3& lattice, const glm::dvec3& normal,
-                      const TriangleBasis& basis, int side) {
+                      const TriangleBasis& basis, int side, double away) {
     RestVertex vertex;
-    const glm::dvec3 share = (lattice - glm::dvec3(box.from)) / glm::dvec3(box.extent);
-    vertex.position = glm::u16vec3(glm::round(65535.0 * glm::clamp(share, 0.0, 1.0)));
-    vertex.side = std::uint16_t(side + 1);
+    const glm::dvec3 inBox = (lattice - glm::dvec3(box.from)) / glm::dvec3(box.extent);
+    vertex.position = glm::u16vec3(glm::round(65535.0 * glm::clamp(inBox, 0.0, 1.0)));
+    const double share = std::clamp(away / (2 * SRS_MASK_SIDES) + 0.5, 0.0, 1.0);
+    vertex.side = std::uint16_t(side + 1 + 3 * int(std::round(share * SRS_AWAY_STEPS)));
     vertex.normal = sim::packNormal(glm::vec3(normal));
     // Of the normal as it is unpacked: the shader makes the same tangent of it.
     const glm::dvec3 tangent = anyTangent(glm::dvec3(sim::unpackNormal(vertex.normal)));

@@ -58,7 +58,8 @@ static_assert(sizeof(StaticVertex) == 20);
 /// What fragments are told of the rest state: 16 bytes a vertex, in a buffer of its own.
 struct RestVertex {
     glm::u16vec3 position; // at rest, in 1/65535 of the mesh's box
-    std::uint16_t side;    // of a cut that the vertex follows (render/cut_surface.h): 0: -1, 1: both, 2: +1
+    std::uint16_t side;    // of a cut that the vertex follows (render/cut_surface.h): 0: -1, 1: both, 2: +1;
+                           // plus 3 times its signed distance from there, in steps (SRS_AWAY_STEPS)
     std::uint32_t normal,
         tangent; // packed: rest normal in lattice axes; a tangent to it, in the vertex' basis
 };
@@ -73,9 +74,10 @@ RestBox restBox(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
 /// The tangent that shaders give a normal, too (Duff et al. 2017, Building an Orthonormal Basis, Revisited).
 glm::dvec3 anyTangent(const glm::dvec3& normal);
 
-/// \param normal at rest, unit, world axes. \param basis that the vertex rides in, at rest (restAxes)
+/// \param normal at rest, unit, world axes. \param basis that the vertex rides in, at rest (restAxes). \param
+/// side, away as CutVertex has them
 RestVertex restVertex(const RestBox& box, const glm::dvec3& lattice, const glm::dvec3& normal,
-                      const TriangleBasis& basis, int side);
+                      const TriangleBasis& basis, int side = 0, double away = 0);
 
 MappedVertex mappedVertex(const VertexBinding& bound, const sim::TextureLayout& layout,
                           const glm::u8vec4& colour);

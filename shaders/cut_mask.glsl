@@ -8,9 +8,11 @@ vec4 cutMask(vec3 rest) {
     return texture(t_cutMask, u_maskScale * (rest - u_maskFrom));
 }
 
-/// \param side of the cut that the triangle follows: 1, -1; 0: both. Where no cut is near, none is another's.
-bool isCut(vec4 mask, float side) {
-    return mask.a < 0.5 || (mask.b < 0.5 + 0.5 * SRS_MASK_PAINTED && (mask.g - 0.5) * side < 0.0);
+/// \param side of the cut that the triangle follows: 1, -1; 0: both. \param away from the cut by the nodes (vertexAway): where
+/// that is far, it decides: voxels beside the lattice's cells know no side.
+bool isCut(vec4 mask, float side, float away) {
+    float own = abs(away) > SRS_MASK_SURE ? away : mask.b < 0.5 + 0.5 * SRS_MASK_PAINTED ? mask.g - 0.5 : 0.0;
+    return mask.a < 0.5 || own * side < 0.0;
 }
 
 /// Of the nearest cut, spacings: positive on its one side, negative on the other. Only where a cut is near.

@@ -57,7 +57,7 @@ void paint(MaskCell cell, ivec3 lowest) {
         float known = 0.0;
         if (own && s_parted) {
             vec4 before = unpackUnorm4x8(imageLoad(i_mask, voxel).x);
-            known = before.z < 1.0 ? before.y - 0.5 : 0.0;
+            known = before.z < SRS_MASK_PAINTED - 0.5 / 255.0 ? before.y - 0.5 : 0.0; // within reach
         }
         vec2 d = strokeDistance(u_origin + vec3(lowest) + at + displacement(at, known));
         if (d.x < SRS_MASK_SIDES)

@@ -134,6 +134,9 @@
 #define SRS_MASK_WIDTH 0.9 // voxels: half the width of what a blade takes away
 #define SRS_MASK_GROUP 64  // invocations that paint a cell
 #define SRS_MASK_FAR 1.0e9 // a node that no blade came near
+#define SRS_MASK_SURE                                                                                        \
+    0.5 // spacings from a cut beyond which a vertex' nodes say its side better than voxels do
+#define SRS_AWAY_STEPS 21844.0
 #define SRS_MASK_PAINTED (254.0 / 255.0) // the distance's largest byte: what has none, has no side
 #define SRS_MASK_KEPT 0xffffffffu
 

@@ -75,9 +75,9 @@ float joined(int node, float side) {
     return before == 0 ? -1.0 : float(left) / float(before);
 }
 
-/// Can a node say where its side is?
+/// Can a node say where its side is? One that no cut is near may lie far behind the other.
 bool speaks(int node, float side) {
-    return node >= 0 && (isFar(node) || isOn(node, side)) && connectionsOf(node) != 0u;
+    return node >= 0 && isOn(node, side) && connectionsOf(node) != 0u;
 }
 
 /// Offset to the nearest node of the side; 0: there is none within reach.

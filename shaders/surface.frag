@@ -16,6 +16,7 @@ in vec3 v_rest;
 #ifdef SURFACE_CUT
 #include "cut_mask.glsl"
 flat in float v_side;
+in float v_away;
 uniform bool u_blood;
 #endif
 #ifdef SURFACE_BOX
@@ -53,7 +54,7 @@ void main() {
     tissue.blood = 0.0;
 #ifdef SURFACE_CUT
     vec4 mask = cutMask(v_rest);
-    if (isCut(mask, v_side))
+    if (isCut(mask, v_side, v_away))
         discard;
     if (u_blood)
         tissue.blood = bloodAt(v_rest, mask.b * SRS_MASK_REACH);

@@ -30,6 +30,7 @@ uniform vec3 u_restFrom, u_restExtent; // of the box, lattice units
 
 out vec3 v_rest;       // lattice units, where the cut mask and the textures are read
 flat out float v_side; // of a cut that the triangle follows: -1, 1; 0: both
+out float v_away;      // spacings from the cut, by the nodes; the sign is the side
 out mat3 v_turn;       // to now from rest
 
 /// The tangent that render/surface_vertices.h gives a normal, too (Duff et al. 2017).
@@ -82,6 +83,7 @@ void main() {
 #ifdef SURFACE_REST
     v_rest = u_restFrom + a_rest.xyz * u_restExtent;
     v_side = vertexSide();
+    v_away = vertexAway();
     vec3 frame = unpackNormal(a_frame.y), restN = unpackNormal(a_frame.x), restT = anyTangent(restN);
 #ifdef SURFACE_STATIC
     vec3 t = frame;

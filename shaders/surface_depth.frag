@@ -5,11 +5,12 @@
 #include "cut_mask.glsl"
 in vec3 v_rest;
 flat in float v_side;
+in float v_away;
 #endif
 
 void main() {
 #ifdef SURFACE_CUT
-    if (isCut(cutMask(v_rest), v_side))
+    if (isCut(cutMask(v_rest), v_side, v_away))
         discard;
 #endif
 }

