@@ -18,7 +18,7 @@ namespace serosa::app {
 
 /// A closed solid as its file has it (mended if that was asked for), and in the world.
 struct OrganSurface {
-    sim::TriangleMesh file;                  // the file's own unit and axes
+    sim::TriangleMesh file;   // the file's own unit and axes
     sim::TriangleMesh metres; // turned so that y is up; the same vertices first, the same faces until split
     std::optional<sim::RepairReport> repair; // where the organ asks for it
 };
