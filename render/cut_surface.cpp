@@ -207,14 +207,14 @@ CutSurface cutSurface(const sim::Lattice& lattice, const sim::TriangleMesh& metr
     const std::vector<glm::dvec3> normals = metres.vertexNormals();
     const ControlNodes nodes = controlNodes(lattice);
     const CutSides held(lattice, connections);
+    const bool bySides = binding.mapping != sim::Mapping::nodeFrames;
     // In cells, a vertex follows their corners alone, as each side carries them (render/side_nodes.h).
     const bool inCells = binding.mapping == sim::Mapping::trilinear;
     std::vector<int> near(binding.vertices.size());
     for (std::size_t v = 0; v < near.size(); ++v)
         near[v] = around(lattice, connections, sides, lattice.toLattice(metres.positions[v]),
-                         inCells ? nullptr : &binding.vertices[v].nodes);
+                         inCells ? nullptr : &(bySides ? uncut : binding).vertices[v].nodes);
 
-    const bool bySides = binding.mapping != sim::Mapping::nodeFrames;
     const SidePlaces places(lattice, connections, sides);
     std::map<std::pair<std::uint32_t, int>, std::int64_t> copyOf; // -1: that side cannot carry the vertex
     const auto copy = [&](std::uint32_t v, int side) {
