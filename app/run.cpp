@@ -481,8 +481,11 @@ Result<int> runScene(const RunOptions& given, std::ostream& out) {
             out << "note: " << grouped(record.organs[i].invertedCells) << " cells of "
                 << parts.scene.organs[i].name
                 << " were turned inside out at a time; pictures are not to be trusted there: press less "
-                   "deep, take a finer lattice, or say recovery = true of the tissue, which turns them "
-                   "right again\n";
+                   "deep"
+                << (parts.scene.organs[i].tissue.recovery
+                        ? " or take a finer lattice\n"
+                        : ", take a finer lattice, or say recovery = true of the tissue, which turns them "
+                          "right again\n");
     for (std::size_t i = 0; i < record.organs.size(); ++i)
         if (record.organs[i].alarm)
             out << "stopped: " << parts.scene.organs[i].name
