@@ -17,9 +17,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 
 namespace serosa::app {
@@ -106,6 +108,30 @@ Status writeImage(const Placed& grid, const std::vector<Value>& values, const fs
     return writeFileAtomically(file, std::string_view(bytes));
 }
 
+/// \param numbers fewest and most that a voxel may have. \param wanted "a volume ..."
+template <class Image>
+Result<typename Image::Pointer> readVolume(itk::ImageIOBase& io, const std::string& name,
+                                           const std::array<unsigned, 2>& numbers,
+                                           const std::string& wanted) {
+    if (!fs::is_regular_file(name))
+        return Error{name + ": no such file"};
+    try {
+        io.SetFileName(name);
+        io.ReadImageInformation();
+        const unsigned components = io.GetNumberOfComponents();
+        if (io.GetNumberOfDimensions() != 3 || components < numbers[0] || components > numbers[1])
+            return Error{name + ": has " + std::to_string(io.GetNumberOfDimensions()) + " dimensions and " +
+                         std::to_string(components) + " numbers a voxel: give a volume " + wanted};
+        const auto reader = itk::ImageFileReader<Image>::New();
+        reader->SetImageIO(&io);
+        reader->SetFileName(name);
+        reader->Update();
+        return typename Image::Pointer(reader->GetOutput());
+    } catch (const itk::ExceptionObject& problem) {
+        return Error{name + ": ITK cannot read it: " + firstLine(problem.GetDescription())};
+    }
+}
+
 } // namespace
 
 Status writeDisplacementImage(const sim::DisplacementGrid& grid, const fs::path& file) {
@@ -127,39 +153,23 @@ Result<VectorImage> readVectorImage(const fs::path& file) {
     const itk::ImageIOBase::Pointer io = imageIo(file.extension().string());
     if (!io)
         return Error{name + ": unknown extension for an image; use .nrrd or .mha"};
-    if (!fs::is_regular_file(file))
-        return Error{name + ": no such file"};
-    try {
-        io->SetFileName(name);
-        io->ReadImageInformation();
-        if (io->GetNumberOfDimensions() != 3 || io->GetNumberOfComponents() < 2)
-            return Error{name + ": has " + std::to_string(io->GetNumberOfDimensions()) + " dimensions and " +
-                         std::to_string(io->GetNumberOfComponents()) +
-                         " numbers a voxel: give a volume of vectors"};
-        using Image = itk::VectorImage<float, 3>;
-        const auto reader = itk::ImageFileReader<Image>::New();
-        reader->SetImageIO(io);
-        reader->SetFileName(name);
-        reader->Update();
-        const Image& image = *reader->GetOutput();
-        VectorImage read;
-        read.components = int(image.GetNumberOfComponentsPerPixel());
-        std::size_t count = std::size_t(read.components);
-        for (unsigned axis = 0; axis < 3; ++axis) {
-            read.size[int(axis)] = int(image.GetLargestPossibleRegion().GetSize()[axis]);
-            read.spacing[int(axis)] = image.GetSpacing()[axis];
-            read.origin[int(axis)] = image.GetOrigin()[axis];
-            count *= std::size_t(read.size[int(axis)]);
-            for (unsigned other = 0; other < 3; ++other)
-                if (std::abs(image.GetDirection()(axis, other) - (axis == other ? 1 : 0)) > 1e-6)
-                    return Error{name +
-                                 ": its axes are turned or mirrored: resample it to axes along x, y, z"};
-        }
-        read.values.assign(image.GetBufferPointer(), image.GetBufferPointer() + count);
-        return read;
-    } catch (const itk::ExceptionObject& problem) {
-        return Error{name + ": ITK cannot read it: " + firstLine(problem.GetDescription())};
+    using Image = itk::VectorImage<float, 3>;
+    constexpr unsigned kAny = std::numeric_limits<unsigned>::max();
+    SEROSA_ASSIGN(const Image::Pointer image, readVolume<Image>(*io, name, {2, kAny}, "of vectors"));
+    VectorImage read;
+    read.components = int(image->GetNumberOfComponentsPerPixel());
+    std::size_t count = std::size_t(read.components);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        read.size[int(axis)] = int(image->GetLargestPossibleRegion().GetSize()[axis]);
+        read.spacing[int(axis)] = image->GetSpacing()[axis];
+        read.origin[int(axis)] = image->GetOrigin()[axis];
+        count *= std::size_t(read.size[int(axis)]);
+        for (unsigned other = 0; other < 3; ++other)
+            if (std::abs(image->GetDirection()(axis, other) - (axis == other ? 1 : 0)) > 1e-6)
+                return Error{name + ": its axes are turned or mirrored: resample it to axes along x, y, z"};
     }
+    read.values.assign(image->GetBufferPointer(), image->GetBufferPointer() + count);
+    return read;
 }
 
 Result<ScalarVolume> readScalarVolume(const fs::path& file) {
@@ -170,37 +180,21 @@ Result<ScalarVolume> readScalarVolume(const fs::path& file) {
               : imageIo(file.extension().string());
     if (!io)
         return Error{name + ": unknown extension for a volume; use .nrrd, .mha, .nii or .nii.gz"};
-    if (!fs::is_regular_file(file))
-        return Error{name + ": no such file"};
-    try {
-        io->SetFileName(name);
-        io->ReadImageInformation();
-        if (io->GetNumberOfDimensions() != 3 || io->GetNumberOfComponents() != 1)
-            return Error{name + ": has " + std::to_string(io->GetNumberOfDimensions()) + " dimensions and " +
-                         std::to_string(io->GetNumberOfComponents()) +
-                         " numbers a voxel: give a volume of three dimensions with one"};
-        using Image = itk::Image<float, 3>;
-        const auto reader = itk::ImageFileReader<Image>::New();
-        reader->SetImageIO(io);
-        reader->SetFileName(name);
-        reader->Update();
-        const Image& image = *reader->GetOutput();
-        ScalarVolume read;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto at = unsigned(axis);
-            read.size[axis] = int(image.GetLargestPossibleRegion().GetSize()[at]);
-            for (int row = 0; row < 3; ++row)
-                read.placeFromVoxel[axis][row] =
-                    image.GetDirection()(unsigned(row), at) * image.GetSpacing()[at];
-            read.placeFromVoxel[3][axis] = image.GetOrigin()[at];
-        }
-        const std::size_t count =
-            std::size_t(read.size.x) * std::size_t(read.size.y) * std::size_t(read.size.z);
-        read.values.assign(image.GetBufferPointer(), image.GetBufferPointer() + count);
-        return read;
-    } catch (const itk::ExceptionObject& problem) {
-        return Error{name + ": ITK cannot read it: " + firstLine(problem.GetDescription())};
+    using Image = itk::Image<float, 3>;
+    SEROSA_ASSIGN(const Image::Pointer image,
+                  readVolume<Image>(*io, name, {1, 1}, "of three dimensions with one"));
+    ScalarVolume read;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto at = unsigned(axis);
+        read.size[axis] = int(image->GetLargestPossibleRegion().GetSize()[at]);
+        for (int row = 0; row < 3; ++row)
+            read.placeFromVoxel[axis][row] =
+                image->GetDirection()(unsigned(row), at) * image->GetSpacing()[at];
+        read.placeFromVoxel[3][axis] = image->GetOrigin()[at];
     }
+    const std::size_t count = std::size_t(read.size.x) * std::size_t(read.size.y) * std::size_t(read.size.z);
+    read.values.assign(image->GetBufferPointer(), image->GetBufferPointer() + count);
+    return read;
 }
 
 const char* imageLibraryVersion() {

@@ -15,8 +15,7 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kSearch = 3;    // spacings
-constexpr int kSideReach = 2; // grid steps: kReach of shaders/side_nodes.comp
+constexpr int kSearch = 3; // spacings
 
 /// Boundary triangles whose nodes all lie on one side of the cuts near by, by the grid cell of their first
 /// node.
@@ -172,9 +171,9 @@ private:
                 other >= 0 && isOn(std::size_t(other), -side))
                 joined = touches(std::size_t(other), side);
         const glm::ivec3 at = lattice_.nodes[node];
-        for (int z = -kSideReach; z <= kSideReach && joined; ++z)
-            for (int y = -kSideReach; y <= kSideReach; ++y)
-                for (int x = -kSideReach; x <= kSideReach; ++x) {
+        for (int z = -SRS_SIDE_REACH; z <= SRS_SIDE_REACH && joined; ++z)
+            for (int y = -SRS_SIDE_REACH; y <= SRS_SIDE_REACH; ++y)
+                for (int x = -SRS_SIDE_REACH; x <= SRS_SIDE_REACH; ++x) {
                     const std::int64_t other = lattice_.nodeAt(at + glm::ivec3(x, y, z));
                     if (other >= 0 && connections_[std::size_t(other)] != 0 && isOn(std::size_t(other), side))
                         return true;

@@ -295,7 +295,7 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
 }
 
 void SurfacePasses::follow(const sim::StateTextures& state, SurfaceStage stage) {
-    if (sideNodes_ && readsSideNodes(stage))
+    if (sideNodes_ && !copies_.empty() && readsSideNodes(stage)) // copies alone read them
         sideNodes_->update(state, *mask_);
     if (stage == SurfaceStage::nodeFrames)
         frames_->run(state.positions());

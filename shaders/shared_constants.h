@@ -141,5 +141,6 @@
 #define SRS_MASK_KEPT 0xffffffffu
 
 // Nodes as one side of the cuts carries them (render/side_nodes.h): alpha, spacings.
+#define SRS_SIDE_REACH 2     // grid steps around a node from which its place on the other side is taken
 #define SRS_SIDE_FAR 4.0     // no cut is near
 #define SRS_SIDE_NONE -100.0 // the side has no place for the node

@@ -13,7 +13,6 @@ uniform int u_nodeCount;
 uniform ivec3 u_dims, u_centre; // of the grid; its point that rests at the origin
 uniform int u_offsets[3 * SRS_NEIGHBOURS];
 
-const int kReach = 2;        // grid steps around a node that its place is taken from
 const float kEven = 0.002;   // how much an even displacement is preferred to a slope that nodes do not show
 
 ivec2 texelOf(int node) {
@@ -83,10 +82,10 @@ bool speaks(int node, float side) {
 /// Offset to the nearest node of the side; 0: there is none within reach.
 ivec3 nearestOf(ivec3 grid, float side) {
     ivec3 nearest = ivec3(0);
-    int least = 4 * kReach * kReach;
-    for (int z = -kReach; z <= kReach; ++z)
-        for (int y = -kReach; y <= kReach; ++y)
-            for (int x = -kReach; x <= kReach; ++x) {
+    int least = 4 * SRS_SIDE_REACH * SRS_SIDE_REACH;
+    for (int z = -SRS_SIDE_REACH; z <= SRS_SIDE_REACH; ++z)
+        for (int y = -SRS_SIDE_REACH; y <= SRS_SIDE_REACH; ++y)
+            for (int x = -SRS_SIDE_REACH; x <= SRS_SIDE_REACH; ++x) {
                 int away = x * x + y * y + z * z;
                 if (away > 0 && away < least && speaks(nodeAt(grid + ivec3(x, y, z)), side)) {
                     least = away;
@@ -105,9 +104,9 @@ vec4 carriedBy(int node, float side) {
     mat4 normal = mat4(0.0);
     mat4x3 right = mat4x3(0.0); // columns: of 1, x, y, z
     float weights = 0.0;
-    for (int z = -kReach; z <= kReach; ++z)
-        for (int y = -kReach; y <= kReach; ++y)
-            for (int x = -kReach; x <= kReach; ++x) {
+    for (int z = -SRS_SIDE_REACH; z <= SRS_SIDE_REACH; ++z)
+        for (int y = -SRS_SIDE_REACH; y <= SRS_SIDE_REACH; ++y)
+            for (int x = -SRS_SIDE_REACH; x <= SRS_SIDE_REACH; ++x) {
                 int other = nodeAt(grid + ivec3(x, y, z));
                 if (!speaks(other, side))
                     continue;
