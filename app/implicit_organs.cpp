@@ -3,7 +3,7 @@
 
 #include "app/vector_image.h"
 #include "base/check.h"
-#include "render/surface_passes.h"
+#include "render/vertex_colours.h"
 
 namespace serosa::app {
 

@@ -35,10 +35,6 @@ SurfaceStage stageOf(sim::Mapping mapping);
 /// Do copies along a cut find their nodes where their side has them (shaders/side_node.glsl)?
 bool readsSideNodes(SurfaceStage stage);
 
-/// Square root of the linear colour of each vertex, and the light of the surround that arrives there.
-/// \param bare linear colour of a mesh without colours; null: flesh
-std::vector<glm::u8vec4> vertexColours(const sim::TriangleMesh& mesh, const glm::vec3* bare);
-
 inline constexpr glm::vec3 kFleshColour{0.342F, 0.048F, 0.037F}; // linear
 inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behind the lattice's lines
 
