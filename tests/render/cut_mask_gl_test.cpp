@@ -114,6 +114,23 @@ protected:
     View view_;
 };
 
+// A surface that may be cut is drawn as it was until it is.
+TEST_F(GlCutMask, ChangesNothingBeforeTheFirstCut) {
+    const auto moved = [&](const glm::dvec3& q) { return q + glm::dvec3(0.1 * (q.y - middle_.y), 0, 0); };
+    state_->upload(deformedState(lattice_, moved));
+    view_.look.colour = sim::SurfaceColour::tissue; // the other colours change with the basis
+    const Image before = draw();
+    const auto placed = renderer_->readDeformedPositions(*state_, sim::Mapping::curvature);
+    ASSERT_TRUE(renderer_->prepareCuts(0, lattice_, state_->layout()).ok());
+    EXPECT_EQ(renderer_->readDeformedPositions(*state_, sim::Mapping::curvature), placed);
+    const Image after = draw();
+    int changed = 0;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x)
+            changed += differs(after, before, x, y);
+    EXPECT_LE(changed, 5) << "pixels: another program rounds otherwise along the outline";
+}
+
 // Halves that were pulled apart: between them nothing, and each ends at a straight line where it was cut, at
 // rest or stretched away from the cut: what lies beside a lip's last nodes is stretched as they are.
 TEST_F(GlCutMask, NothingIsDrawnBetweenTheSidesAndLipsAreStraight) {
