@@ -21,7 +21,7 @@
 #define SRS_SEARCH_THRESHOLD 1
 #define SRS_SEARCH_JACOBIAN 2
 
-#define SRS_BISECTIONS 14     // of an interval in which a ray meets something, at most,
+#define SRS_REFINEMENTS 30    // of an interval in which a ray meets something, at most,
 #define SRS_EXACT 0.004       // and until it is so short, of the step: where space was skipped it is long
 #define SRS_MOST_SAMPLES 2048 // of a ray
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter

@@ -13,6 +13,13 @@ uniform vec3 u_skipHalf;      // of the box, where it is wound not beyond its ow
 uniform float u_leastStretch; // of M's affine part, object space for 1 m
 uniform float u_shareStretch; // its largest stretch over its least
 
+/// Of the nearest texel: its bounds hold half a texel around it, too.
+vec3 skipTexel(vec3 q) {
+    ivec3 size = textureSize(t_skip, 0);
+    ivec3 at = clamp(ivec3(vec3(size) * (0.5 * q / u_half + 0.5)), ivec3(0), size - 1);
+    return texelFetch(t_skip, at, 0).xyz;
+}
+
 /// Of a way in texture space from q: what is within it whichever way it goes; local space, which may be wound.
 float localWay(vec3 q, float way) {
 #ifdef RAYCAST_WOUND
@@ -54,7 +61,7 @@ Skip skipFrom(Warped warped, float free, float t, vec2 slab) {
 #endif
     skip.way = free;
 #ifdef RAYCAST_WARP
-    vec3 q = warped.q, known = texture(t_skip, 0.5 * q / u_half + 0.5).xyz;
+    vec3 q = warped.q, known = skipTexel(q);
 #ifdef RAYCAST_WOUND
     float enter = u_leastStretch * length(max(abs(q.xy) - u_half.xy, 0.0)); // the way round is not counted
     vec3 face = u_skipHalf - abs(q);

@@ -30,14 +30,13 @@ vec3 toTexture(vec3 object) {
     return local;
 }
 
-vec3 toObject(vec3 q) {
-    vec3 local = q;
 #ifdef RAYCAST_WOUND
+vec3 toObject(vec3 q) {
     float phi = q.z / u_cylinder;
-    local = vec3((q.x + u_cylinder) * cos(phi), q.y, (q.x + u_cylinder) * sin(phi));
-#endif
+    vec3 local = vec3((q.x + u_cylinder) * cos(phi), q.y, (q.x + u_cylinder) * sin(phi));
     return (u_objectFromLocal * vec4(local, 1.0)).xyz;
 }
+#endif
 
 /// d toObject / d q
 mat3 mappingJacobian(vec3 q) {
@@ -51,7 +50,7 @@ mat3 mappingJacobian(vec3 q) {
 }
 
 vec4 readDisplacement(vec3 q) {
-    vec4 texel = texture(t_displacement, 0.5 * q / u_half + 0.5);
+    vec4 texel = textureLod(t_displacement, 0.5 * q / u_half + 0.5, 0.0);
     return vec4(u_scale * (texel.xyz - u_bias), texel.w);
 }
 
@@ -82,11 +81,14 @@ Warped warp(vec3 shown) {
 #endif
 #ifdef RAYCAST_WARP
     vec3 q = toTexture(shown);
-    if (inBox(q)) {
-        vec4 d = readDisplacement(q);
-        return Warped(toObject(q + d.xyz), min(d.w, kept), tissue, cut, true, q);
-    }
-    return Warped(shown, kept, tissue, cut, false, q);
+    bool inside = inBox(q);
+    vec4 d = inside ? readDisplacement(q) : vec4(0.0, 0.0, 0.0, 1.0);
+#ifdef RAYCAST_WOUND
+    vec3 rest = inside ? toObject(q + d.xyz) : shown;
+#else
+    vec3 rest = shown + mat3(u_objectFromLocal) * d.xyz; // M(q + D), M(q) known
+#endif
+    return Warped(rest, min(d.w, kept), tissue, cut, inside, q);
 #else
     return Warped(shown, kept, tissue, cut, false, shown);
 #endif
@@ -157,7 +159,7 @@ vec2 fieldParts(vec3 rest) {
     vec3 at = (rest - u_fieldLowest) / u_fieldStep;
 #if RAYCAST_FIELD == SRS_FIELD_DISTANCE
     vec3 size = vec3(textureSize(t_field, 0)), within = clamp(at, vec3(0.0), size - 1.0);
-    float f = texture(t_field, (within + 0.5) / size).x;
+    float f = textureLod(t_field, (within + 0.5) / size, 0.0).x;
 #else
     vec3 within = clamp(at, vec3(0.0), u_gridMost);
     float f = depthField(within);
