@@ -176,8 +176,9 @@ void addScene(CLI::App& app, Choice& choice) {
 void addPhantom(CLI::App& app, Choice& choice) {
     CLI::App* command = app.add_subcommand("phantom", "Generate an organ, in millimetres");
     struct Arguments {
-        std::string name, file;
+        std::string name, file, volume;
         std::size_t faces = 0;
+        double voxel = 1;
         bool force = false;
     };
     auto given = std::make_shared<Arguments>();
@@ -185,17 +186,29 @@ void addPhantom(CLI::App& app, Choice& choice) {
     command->add_option("--faces", given->faces, "at least so many faces, at most 5% more")
         ->type_name("N")
         ->check(CLI::Range(1, 100000000));
-    command->add_option("-o,--output", given->file, "file to write: .ply, .obj, .off or .stl")
-        ->required()
-        ->type_name("FILE");
+    CLI::Option* surface =
+        command->add_option("-o,--output", given->file, "file to write: .ply, .obj, .off or .stl")
+            ->type_name("FILE");
+    CLI::Option* volume = command
+                              ->add_option("--volume", given->volume,
+                                           "write what cuts through it show, too: colours, .nrrd or .mha")
+                              ->type_name("FILE");
+    command->add_option("--voxel", given->voxel, "of the volume (default 1)")->type_name("MM")->needs(volume);
     command->add_flag("--force", given->force, "replace an existing file");
     std::string list = "Phantoms:\n";
     for (const models::PhantomInfo& info : models::phantoms())
         list += "  " + info.name + std::string(info.name.size() < 8 ? 8 - info.name.size() : 1, ' ') +
                 info.description + " (default " + std::to_string(info.defaultFaces) + " faces)\n";
     command->footer(list + "Example:\n  serosa phantom heart --faces 50000 -o heart.ply");
-    command->callback([given, &choice] {
-        choice.action = [given] {
+    command->callback([given, surface, volume, &choice] {
+        if (surface->empty() && volume->empty())
+            throw CLI::RequiredError("--output or --volume");
+        choice.action = [given]() -> Result<int> {
+            if (!given->volume.empty())
+                SEROSA_TRY(
+                    writePhantomVolume(given->name, given->voxel, given->volume, given->force, std::cout));
+            if (given->file.empty())
+                return int(exitOk);
             return writePhantom(given->name, given->faces, given->file, given->force, std::cout);
         };
     });

@@ -40,5 +40,8 @@ Result<int> writeSceneDeformation(const std::filesystem::path& scene, std::size_
 /// \param faces 0: the phantom's default.
 Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
                          bool force, std::ostream& out);
+/// What cuts through a phantom show (models/solid.h), .nrrd or .mha. \param voxel mm
+Status writePhantomVolume(const std::string& name, double voxel, const std::filesystem::path& file,
+                          bool force, std::ostream& out);
 
 } // namespace serosa::app

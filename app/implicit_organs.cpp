@@ -52,7 +52,7 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
 }
 
 Status ImplicitOrgans::readCutVolume(const sim::CutVolume& wanted) {
-    SEROSA_ASSIGN(ScalarVolume read, readScalarVolume(wanted.file));
+    SEROSA_ASSIGN(VoxelVolume read, readVoxelVolume(wanted.file));
     glm::dmat4 worldFromPlace(0); // of mm
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 along(0);
@@ -61,7 +61,13 @@ Status ImplicitOrgans::readCutVolume(const sim::CutVolume& wanted) {
     }
     worldFromPlace[3] = glm::dvec4(wanted.at, 1);
     const render::VoxelValues voxels{read.size, worldFromPlace * read.placeFromVoxel, std::move(read.values)};
-    Result<render::CutVolume> made = wanted.labels.empty()
+    const bool colours = read.components == 3;
+    if (colours && !wanted.labels.empty())
+        return Error{wanted.file.string() +
+                     ": has colours, three numbers a voxel, and look.cut_volume.label gives "
+                     "colours of labels: remove the labels, or give a map of them"};
+    Result<render::CutVolume> made = colours ? render::CutVolume::colours(voxels)
+                                     : wanted.labels.empty()
                                          ? render::CutVolume::grey(voxels, wanted.level, wanted.width)
                                          : render::CutVolume::labels(voxels, wanted.labels);
     if (!made.ok())

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 #include "app/organ_setup.h"
 #include "app/output_folder.h"
+#include "app/vector_image.h"
 #include "models/phantom.h"
 #include "sim/mesh_check.h"
 #include "sim/mesh_reader.h"
@@ -143,6 +144,16 @@ Result<int> writePhantom(const std::string& name, std::size_t faces, const std::
     out << file.string() << ": " << grouped(mesh.positions.size()) << " vertices, "
         << grouped(mesh.faces.size()) << " faces, " << sizeText(mesh.highest() - mesh.lowest()) << " mm\n";
     return int(exitOk);
+}
+
+Status writePhantomVolume(const std::string& name, double voxel, const std::filesystem::path& file,
+                          bool force, std::ostream& out) {
+    SEROSA_TRY(checkTarget(file, name + ".nrrd", force));
+    SEROSA_ASSIGN(const models::ColourVolume volume, models::makePhantomVolume(name, voxel));
+    SEROSA_TRY(writeColourVolume(volume, file));
+    out << file.string() << ": " << volume.size.x << " x " << volume.size.y << " x " << volume.size.z
+        << " voxels of " << shortNumber(voxel) << " mm, colours\n";
+    return {};
 }
 
 } // namespace serosa::app

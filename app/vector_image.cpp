@@ -11,6 +11,7 @@
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
+#include <itkRGBPixel.h>
 #include <itkVector.h>
 #include <itkVectorImage.h>
 #include <itkVersion.h>
@@ -172,7 +173,7 @@ Result<VectorImage> readVectorImage(const fs::path& file) {
     return read;
 }
 
-Result<ScalarVolume> readScalarVolume(const fs::path& file) {
+Result<VoxelVolume> readVoxelVolume(const fs::path& file) {
     const std::string name = file.string();
     const bool nifti = name.ends_with(".nii") || name.ends_with(".nii.gz");
     const itk::ImageIOBase::Pointer io =
@@ -180,21 +181,30 @@ Result<ScalarVolume> readScalarVolume(const fs::path& file) {
               : imageIo(file.extension().string());
     if (!io)
         return Error{name + ": unknown extension for a volume; use .nrrd, .mha, .nii or .nii.gz"};
-    using Image = itk::Image<float, 3>;
-    SEROSA_ASSIGN(const Image::Pointer image,
-                  readVolume<Image>(*io, name, {1, 1}, "of three dimensions with one"));
-    ScalarVolume read;
+    using Image = itk::VectorImage<float, 3>;
+    const std::string wanted = "of three dimensions with one, or with three that are colours";
+    SEROSA_ASSIGN(const Image::Pointer image, readVolume<Image>(*io, name, {1, 3}, wanted));
+    VoxelVolume read;
+    read.components = int(image->GetNumberOfComponentsPerPixel());
+    if (read.components == 2)
+        return Error{name + ": has 2 numbers a voxel: give a volume " + wanted};
+    std::size_t count = std::size_t(read.components);
     for (int axis = 0; axis < 3; ++axis) {
         const auto at = unsigned(axis);
         read.size[axis] = int(image->GetLargestPossibleRegion().GetSize()[at]);
+        count *= std::size_t(read.size[axis]);
         for (int row = 0; row < 3; ++row)
             read.placeFromVoxel[axis][row] =
                 image->GetDirection()(unsigned(row), at) * image->GetSpacing()[at];
         read.placeFromVoxel[3][axis] = image->GetOrigin()[at];
     }
-    const std::size_t count = std::size_t(read.size.x) * std::size_t(read.size.y) * std::size_t(read.size.z);
     read.values.assign(image->GetBufferPointer(), image->GetBufferPointer() + count);
     return read;
+}
+
+Status writeColourVolume(const models::ColourVolume& volume, const fs::path& file) {
+    return writeImage<itk::RGBPixel<std::uint8_t>>({volume.size, glm::dvec3(volume.voxel), volume.lowest},
+                                                   volume.voxels, file);
 }
 
 const char* imageLibraryVersion() {

@@ -3,6 +3,7 @@
 // linked with: no library of ours and no header needs it.
 
 #include "base/result.h"
+#include "models/solid.h"
 #include "sim/displacement.h"
 
 #include <filesystem>
@@ -32,16 +33,20 @@ Status writeVectorImage(const VectorImage& image, const std::filesystem::path& f
 /// axes.
 Result<VectorImage> readVectorImage(const std::filesystem::path& file);
 
-/// A volume of one number a voxel, such as a CT or a map of labels; x fastest.
-struct ScalarVolume {
+/// A volume of one number a voxel, such as a CT or a map of labels, or of three, which are colours; x
+/// fastest.
+struct VoxelVolume {
     glm::ivec3 size{0};
     glm::dmat4 placeFromVoxel{
         1}; // mm, ITK's axes: left, posterior, superior; voxel (0, 0, 0) has its middle at 0
+    int components = 1;
     std::vector<float> values;
 };
-/// Numbers of any type, .nrrd, .mha, .nii or .nii.gz. Errors: of the file; not of three dimensions; several
-/// numbers a voxel.
-Result<ScalarVolume> readScalarVolume(const std::filesystem::path& file);
+/// Numbers of any type, .nrrd, .mha, .nii or .nii.gz. Errors: of the file; not of three dimensions; neither
+/// one nor three numbers a voxel.
+Result<VoxelVolume> readVoxelVolume(const std::filesystem::path& file);
+/// Bytes. Errors: as writeDisplacementImage.
+Status writeColourVolume(const models::ColourVolume& volume, const std::filesystem::path& file);
 
 /// ITK's, such as "5.2.1".
 const char* imageLibraryVersion();

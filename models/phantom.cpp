@@ -22,9 +22,12 @@ namespace {
 
 using Maker = Result<sim::TriangleMesh> (*)(std::size_t faces);
 
+using SolidOf = const Solid& (*)();
+
 struct Phantom {
     PhantomInfo info;
     Maker make;
+    SolidOf solid = nullptr; // where its inside is known
 };
 
 /// A new phantom is a line here, and a file of its own.
@@ -34,25 +37,50 @@ const std::vector<Phantom>& table() {
           50000},
          makeHeart},
         {{"liver", "liver with gallbladder, ligament and the vessels' stumps; 200 mm wide", 60000},
-         makeLiver},
-        {{"kidney", "right kidney, 110 mm high, with renal artery, vein and ureter", 40000}, makeKidney},
-        {{"skin", "patch of skin, 80 x 80 x 20 mm: epidermis, dermis, fat, muscle", 100000}, makeSkin},
+         makeLiver,
+         liverSolid},
+        {{"kidney", "right kidney, 110 mm high, with renal artery, vein and ureter", 40000},
+         makeKidney,
+         kidneySolid},
+        {{"skin", "patch of skin, 80 x 80 x 20 mm: epidermis, dermis, fat, muscle", 100000},
+         makeSkin,
+         skinSolid},
         {{"dragon", "curled dragon, 120 x 120 x 60 mm, for figure 6 of MS05", 10000}, makeDragon},
         {{"golfball", "golf ball with 336 dimples, for figure 3 of CS07", 245000}, makeGolfBall},
-        {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 40000}, makeApple},
+        {{"apple", "apple with stem and calyx, 76 mm wide, for figures 2 and 6 of CS07", 40000},
+         makeApple,
+         []() -> const Solid& { return appleSolid(); }},
         {{"bank", "hollow piggy bank with a coin slot, walls of 4 mm, for figures 1 and 4 of CSC06", 40000},
          makeBank},
         {{"coins", "heap of 26 coins, fused where they touch, that lies in the bank", 80000}, makeCoins},
         {{"fish", "perch with fins spread, 186 mm long, for the figures of CS07", 60000}, makeFish},
         {{"hand", "open right hand, 188 mm from wrist to fingertip, for the figures of CS07", 60000},
-         makeHand},
-        {{"torso", "trunk of a man, 600 mm high, whose chest CS07 peels in figure 1", 25000}, makeTorso},
+         makeHand,
+         handSolid},
+        {{"torso", "trunk of a man, 600 mm high, whose chest CS07 peels in figure 1", 25000},
+         makeTorso,
+         torsoSolid},
         {{"mask", "face mask that lies under the skin of the torso's chest", 10000}, makeMask},
         {{"beam", "box of 30 x 30 x 120 mm with sharp edges", 3600}, makeBeam},
         {{"layer", "flat layer, 120 x 48 x 120 mm with sharp edges, to be indented", 11520}, makeLayer},
         {{"ball", "ball of radius 40 mm", 5120}, makeBall},
     };
     return list;
+}
+
+Result<const Phantom*> find(const std::string& name) {
+    std::vector<std::string> names;
+    for (const Phantom& phantom : table()) {
+        if (phantom.info.name == name)
+            return &phantom;
+        names.push_back(phantom.info.name);
+    }
+    std::string all;
+    for (const std::string& known : names)
+        all += (all.empty() ? "" : ", ") + known;
+    const std::string near = sim::nearestWord(name, names);
+    return Error{"no phantom is named \"" + name + "\"" +
+                 (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; there are: " + all};
 }
 
 } // namespace
@@ -70,18 +98,20 @@ const std::vector<PhantomInfo>& phantoms() {
 Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces) {
     if (faces < 4)
         return Error{"a closed surface has at least 4 faces, not " + std::to_string(faces)};
-    std::vector<std::string> names;
-    for (const Phantom& phantom : table()) {
-        if (phantom.info.name == name)
-            return phantom.make(faces);
-        names.push_back(phantom.info.name);
+    SEROSA_ASSIGN(const Phantom* phantom, find(name));
+    return phantom->make(faces);
+}
+
+Result<ColourVolume> makePhantomVolume(const std::string& name, double voxel) {
+    SEROSA_ASSIGN(const Phantom* phantom, find(name));
+    if (!phantom->solid) {
+        std::string known;
+        for (const Phantom& other : table())
+            if (other.solid)
+                known += (known.empty() ? "" : ", ") + other.info.name;
+        return Error{"the " + name + " phantom has no inside to sample; these have: " + known};
     }
-    std::string all;
-    for (const std::string& known : names)
-        all += (all.empty() ? "" : ", ") + known;
-    const std::string near = sim::nearestWord(name, names);
-    return Error{"no phantom is named \"" + name + "\"" +
-                 (near.empty() ? "" : "; did you mean \"" + near + "\"?") + "; there are: " + all};
+    return sampleSolid(phantom->solid(), voxel);
 }
 
 Result<sim::TriangleMesh> phantomInMetres(const std::string& name, std::size_t faces) {

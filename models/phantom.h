@@ -3,6 +3,7 @@
 // manifold, no self-contact. `serosa phantom NAME --faces N -o FILE`.
 
 #include "base/result.h"
+#include "models/solid.h"
 #include "sim/lattice.h"
 #include "sim/triangle_mesh.h"
 
@@ -22,6 +23,9 @@ const std::vector<PhantomInfo>& phantoms();
 /// origin, with vertex colours. Errors: unknown name (with a suggestion), a face count that the shape cannot
 /// have.
 Result<sim::TriangleMesh> makePhantom(const std::string& name, std::size_t faces);
+/// What cuts through a phantom show, in voxels of so many millimetres. Errors: unknown name, a phantom whose
+/// inside is not known, and those of sampleSolid.
+Result<ColourVolume> makePhantomVolume(const std::string& name, double voxel);
 /// The same in metres.
 Result<sim::TriangleMesh> phantomInMetres(const std::string& name, std::size_t faces);
 /// The lattice of a phantom in metres, with about `nodes` nodes. Errors: also those of sim::buildLattice.

@@ -5,6 +5,7 @@
 #include "models/mesher.h"
 
 #include <string>
+#include <vector>
 
 namespace serosa::models {
 
@@ -18,5 +19,15 @@ struct Solid {
 
 /// The surface of `solid` with vertex colours. Errors: a face count out of its range.
 Result<sim::TriangleMesh> meshSolid(const Solid& solid, std::size_t faces);
+
+/// What cuts through a solid show, voxel by voxel.
+struct ColourVolume {
+    glm::ivec3 size{0};
+    double voxel = 0;                // mm, along each axis
+    Point lowest{0};                 // mm: middle of the first voxel
+    std::vector<glm::u8vec3> voxels; // sRGB, x fastest; black far outside
+};
+/// Errors: a voxel that is not a length above 0, more than 512 along an axis.
+Result<ColourVolume> sampleSolid(const Solid& solid, double voxel);
 
 } // namespace serosa::models

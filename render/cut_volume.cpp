@@ -48,9 +48,11 @@ Result<CutVolume> CutVolume::of(const VoxelValues& voxels) {
             return Error{"has " + std::to_string(size[axis]) +
                          " voxels along an axis, and textures here have 1 to " + std::to_string(most) +
                          ": resample it"};
+    const std::size_t each =
+        voxels.values.size() / (std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
     for (std::size_t i = 0; i < voxels.values.size(); ++i)
         if (!std::isfinite(voxels.values[i]))
-            return Error{"voxel (" + voxelText(i, size) + ") is not a finite number: mend the file"};
+            return Error{"voxel (" + voxelText(i / each, size) + ") is not a finite number: mend the file"};
     const double spans = std::abs(glm::determinant(glm::dmat3(voxels.worldFromVoxel)));
     if (!(spans > 1e-24 && spans < 1e24))
         return Error{"its axes span no space: look at its spacing and direction"};
@@ -71,7 +73,7 @@ Result<CutVolume> CutVolume::grey(const VoxelValues& voxels, double level, doubl
 Result<CutVolume> CutVolume::labels(const VoxelValues& voxels,
                                     const std::vector<std::pair<int, glm::ivec3>>& colours) {
     SEROSA_ASSIGN(CutVolume made, of(voxels));
-    made.labelled_ = true;
+    made.kind_ = SRS_VOLUME_LABELS;
     std::map<int, std::uint32_t> words; // r in the lowest byte
     for (const auto& [value, colour] : colours)
         words[value] = std::uint32_t(colour.r) | std::uint32_t(colour.g) << 8 |
@@ -87,6 +89,27 @@ Result<CutVolume> CutVolume::labels(const VoxelValues& voxels,
     return made;
 }
 
+Result<CutVolume> CutVolume::colours(const VoxelValues& voxels) {
+    SEROSA_ASSIGN(CutVolume made, of(voxels));
+    made.kind_ = SRS_VOLUME_COLOURS;
+    std::vector<std::uint32_t> texels;
+    texels.reserve(voxels.values.size() / 3);
+    for (std::size_t i = 0; i + 2 < voxels.values.size(); i += 3) {
+        std::uint32_t word = 0xff000000u;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float value = voxels.values[i + c];
+            if (value < 0 || value > 255)
+                return Error{"voxel (" + voxelText(i / 3, voxels.size) +
+                             ") has a colour outside of 0 to 255: scale its values"};
+            word |= std::uint32_t(std::lround(value)) << (8 * c);
+        }
+        texels.push_back(word);
+    }
+    made.texture_ = gpu::Texture3D("colours of cut faces", voxels.size);
+    made.texture_.upload(texels);
+    return made;
+}
+
 bool CutVolume::meets(const glm::dvec3& lowest, const glm::dvec3& highest) const {
     const glm::dvec3 low(-0.5), high = glm::dvec3(texture_.size()) - 0.5; // voxels
     return overlap(carried(worldFromVoxel_, low, high), lowest, highest) &&
@@ -96,7 +119,7 @@ bool CutVolume::meets(const glm::dvec3& lowest, const glm::dvec3& highest) const
 void CutVolume::set(gpu::Program& program, const glm::dmat4& worldFromObject) const {
     program.set("u_volumeFromObject", glm::mat4(voxelFromWorld_ * worldFromObject));
     program.texture("t_cutVolume", texture_);
-    if (!labelled_)
+    if (kind_ == SRS_VOLUME_GREY)
         program.set("u_window", window_);
 }
 

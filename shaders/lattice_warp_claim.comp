@@ -18,7 +18,7 @@ bool isHere() {
         if (w == SRS_SIDE_NONE)
             return false;
         crosses = crosses || w < 0.0;
-        own = own || w >= 0.0 && w < SRS_SIDE_FAR;
+        own = own || w > -SRS_SIDE_ON && w < SRS_SIDE_FAR;
     }
     return own || !crosses;
 #else

@@ -10,6 +10,11 @@
 #define SRS_SOLID_SHELL 2
 #define SRS_SOLID_COMBINED 3 // hollow, by one implicit of object and mask: for comparison
 
+// What colours the faces of cuts (render/cut_volume.h): RAYCAST_VOLUME; 0 nothing.
+#define SRS_VOLUME_GREY 1
+#define SRS_VOLUME_LABELS 2
+#define SRS_VOLUME_COLOURS 3
+
 // What the undeformed body is (render/ray_field.h).
 #define SRS_FIELD_DISTANCE 0
 #define SRS_FIELD_DEPTH 1
@@ -35,6 +40,7 @@
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
 #define SRS_WARP_ACROSS 1.1         // spacings: so far beyond a cut its side goes on
+#define SRS_SIDE_ON 0.25            // spacings: a node so near to a cut is as good as on either side of it
 #define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
 #define SRS_WARP_STEPS 8            // Newton's
 #define SRS_WARP_GROUP 32

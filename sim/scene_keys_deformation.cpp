@@ -67,7 +67,8 @@ std::vector<SceneKey> cutVolumeKeys() {
     const char* const table = "look.cut_volume";
     return {
         plain(table, "file", Kind::text, kAny, nullptr,
-              "a volume of one number a voxel (.nrrd, .mha, .nii, .nii.gz) in millimetres, with its own "
+              "a volume of one number a voxel, or of three that are colours (.nrrd, .mha, .nii, .nii.gz) in "
+              "millimetres, with its own "
               "origin, spacing and direction; the path is relative to the scene file"),
         quantity(table, "at", Dim::length, kAny, "[\"0 mm\", \"0 mm\", \"0 mm\"]",
                  "where the zero of its coordinates lies in the world", Kind::quantity3),

@@ -1,6 +1,7 @@
 // Displacement images: read back through ITK, and independently the header and bytes of NRRD and MetaImage by
 // hand, against the state.
 #include "app/vector_image.h"
+#include "models/phantom.h"
 #include "sim/solver.h"
 #include "tests/app/child.h"
 #include "tests/sim/cut_strokes.h"
@@ -200,7 +201,7 @@ TEST_F(VectorImage, VolumesLieWhereItkSaysThatTheirVoxelsDo) {
         SCOPED_TRACE(name);
         const fs::path file = folder_.path() / name;
         writeNumbered<3>(io, file);
-        const auto read = readScalarVolume(file);
+        const auto read = readVoxelVolume(file);
         ASSERT_TRUE(read.ok()) << read.error().message;
         ASSERT_EQ(read->size, glm::ivec3(4, 3, 2));
         const double c = std::cos(0.4), s = std::sin(0.4);
@@ -216,18 +217,38 @@ TEST_F(VectorImage, VolumesLieWhereItkSaysThatTheirVoxelsDo) {
     }
 }
 
+TEST_F(VectorImage, ColoursOfAPhantomComeBackFromItsFile) {
+    const auto made = models::makePhantomVolume("kidney", 4);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    for (const char* name : {"c.nrrd", "c.mha"}) {
+        ASSERT_TRUE(writeColourVolume(*made, folder_.path() / name).ok());
+        const auto read = readVoxelVolume(folder_.path() / name);
+        ASSERT_TRUE(read.ok()) << read.error().message;
+        ASSERT_EQ(read->size, made->size);
+        ASSERT_EQ(read->components, 3);
+        for (std::size_t i = 0; i < made->voxels.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_EQ(read->values[3 * i + std::size_t(c)], float(made->voxels[i][c]));
+        const glm::dvec3 last = glm::dvec3(made->size - 1), place(read->placeFromVoxel * glm::dvec4(last, 1));
+        EXPECT_LT(glm::distance(place, made->lowest + 4.0 * last), 1e-6);
+    }
+}
+
 TEST_F(VectorImage, WhatIsNoVolumeIsRefusedInOneLine) {
     writeNumbered<2>(itk::MetaImageIO::New().GetPointer(), folder_.path() / "flat.mha");
-    ASSERT_TRUE(writeDisplacementImage(grid_, folder_.path() / "vectors.nrrd").ok());
+    folder_.write("pairs.nrrd",
+                  "NRRD0004\ntype: short\ndimension: 4\nsizes: 2 2 1 1\nkinds: 2-vector space space space\n"
+                  "space: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+                  "encoding: ascii\n\n1 2 3 4\n");
     folder_.write("text.nrrd", "no image\n");
     folder_.write("text.nii.gz", "no image\n");
     for (const auto& [name, says] : {std::pair{"flat.mha", "2 dimensions"},
-                                     {"vectors.nrrd", "3 numbers a voxel"},
+                                     {"pairs.nrrd", "2 numbers a voxel"},
                                      {"text.nrrd", ""},
                                      {"text.nii.gz", ""},
                                      {"gone.mha", "no such file"},
                                      {"v.dcm", "unknown extension"}}) {
-        const auto read = readScalarVolume(folder_.path() / name);
+        const auto read = readVoxelVolume(folder_.path() / name);
         ASSERT_FALSE(read.ok()) << name;
         EXPECT_NE(read.error().message.find(name), std::string::npos);
         EXPECT_NE(read.error().message.find(says), std::string::npos) << read.error().message;

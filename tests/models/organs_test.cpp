@@ -80,6 +80,39 @@ TEST(Liver, RightLobeIsTheLarger) {
     EXPECT_LT(right, 7 * left);
 }
 
+TEST(Kidney, AVolumeShowsCortexAroundPyramidsAndColumns) {
+    const auto made = makePhantomVolume("kidney", 2);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    glm::dvec3 cortex(0);
+    double outer = 0, deep = 0, pyramids = 0, columns = 0, outside = 0;
+    for (std::size_t i = 0; i < made->voxels.size(); ++i) {
+        const int x = made->size.x, y = made->size.y, at = int(i);
+        const Point p = made->lowest + 2.0 * Point(at % x, at / x % y, at / (x * y));
+        const glm::ivec3 colour(made->voxels[i]);
+        const double depth = -kidneyBodyDistance(p);
+        if (p.x > 5) // vessels, pelvis and fat
+            continue;
+        if (depth > 3 && depth < 5) {
+            cortex += colour;
+            ++outer;
+        }
+        if (depth > 10 && depth < 14) {
+            ++deep;
+            pyramids += colour.r < 141; // between the two
+            columns += colour.r >= 141;
+        }
+        if (depth < -5) {
+            EXPECT_EQ(colour, glm::ivec3(0));
+            ++outside;
+        }
+    }
+    ASSERT_GT(outer, 500);
+    EXPECT_LT(glm::distance(cortex / outer, glm::dvec3(158, 84, 64)), 15);
+    EXPECT_GT(pyramids / deep, 0.2);
+    EXPECT_GT(columns / deep, 0.2);
+    EXPECT_GT(outside, 500);
+}
+
 TEST(Kidney, HasAnAdultsSizeAndABeansShape) {
     const sim::TriangleMesh& mesh = test::defaultPhantom("kidney");
     const glm::dvec3 size = test::extentsOf(mesh).size();

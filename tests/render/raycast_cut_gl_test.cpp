@@ -111,14 +111,14 @@ protected:
     }
 
     double side(const glm::dvec3& rest) const {
-        return glm::dot(rest - middle_ - glm::dvec3(kPlane, 0, 0), normal_);
+        return glm::dot(rest - middle_ - glm::dvec3(plane_, 0, 0), normal_);
     }
 
     /// Through the whole ball at rest.
     sim::Stroke stroke() const {
         sim::Stroke stroke;
         for (const int end : {0, 1}) {
-            const double z = end ? 8 : -8, x = kPlane + kTilt * z;
+            const double z = end ? 8 : -8, x = plane_ + tilt_ * z;
             stroke.from[std::size_t(end)] = lattice_.toWorld(middle_ + glm::dvec3(x, 8, z));
             stroke.to[std::size_t(end)] = lattice_.toWorld(middle_ + glm::dvec3(x, -8, z));
         }
@@ -208,6 +208,7 @@ protected:
         return probes.ok() ? *probes : std::vector<RaycastProbe>();
     }
 
+    double plane_ = kPlane, tilt_ = kTilt;
     glm::dvec3 normal_{1, 0, 0};
     double half_ = 0; // of what the blade took, spacings
     Half halves_[2];
@@ -216,6 +217,39 @@ protected:
     std::optional<DistanceVolume> volume_;
     std::optional<Raycaster> caster_;
 };
+
+// Of cells that end at the cut, each side needs the copies beyond: else its field goes on from each cell in
+// another direction.
+TEST_F(GlRaycastCut, FacesOfACutThroughNodesAreFlatAtRestHoweverTheHalvesBend) {
+    for (const double beside : {-0.01, 0.01}) {
+        SCOPED_TRACE(beside);
+        plane_ = std::round(middle_.x) - middle_.x + beside;
+        tilt_ = 0;
+        normal_ = {1, 0, 0};
+        mask_->clear();
+        state_->upload(sim::restState(lattice_));
+        mask_->paint(*state_, lattice_, stroke());
+        sim::LatticeState now = cutAndOpened();
+        for (std::size_t node = 0; node < lattice_.nodeCount(); ++node) {
+            const glm::dvec3 from = lattice_.restPosition(node) - middle_;
+            const double bend = 0.07 * (from.y * from.y + from.z * from.z) + 0.05 * from.x * from.y;
+            now.positions[node] += glm::vec3(from.x > plane_ ? 4 - bend : bend - 4, 0, 0.5 * bend);
+        }
+        state_->upload(now);
+        ASSERT_TRUE(warp_->update(*state_, &*mask_).ok());
+        for (const double from : {-1.0, 1.0}) {
+            int faces = 0, pits = 0;
+            for (const RaycastProbe& found :
+                 probe(view(glm::normalize(glm::dvec3(0.6 * from, -0.2, -0.8))), Solid::solid))
+                if (found.kind == RaycastProbe::cutFace) {
+                    ++faces;
+                    pits += std::abs(side(lattice_.toLattice(found.rest))) > half_ + 0.1;
+                }
+            EXPECT_GT(faces, 200);
+            EXPECT_LT(pits, 0.03 * faces) << pits << " of " << faces;
+        }
+    }
+}
 
 // Solid: nothing between the halves, faces closed, where and as they must be.
 TEST_F(GlRaycastCut, HalvesThatArePulledApartHaveClosedFacesAndNothingBetween) {

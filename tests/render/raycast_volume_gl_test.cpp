@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -177,6 +178,57 @@ TEST_F(GlRaycastVolume, LabelsHaveTheirColoursAndOthersTheFlesh) {
     }
     for (const int count : counts)
         EXPECT_GT(count, 50);
+}
+
+TEST_F(GlRaycastVolume, ColoursAreThoseOfTheirPlaces) {
+    constexpr double kFrom = 20, kSlope = 4000; // of red, which grows along x
+    const auto red = [](const glm::dvec3& p) { return std::clamp(kFrom + 80 + kSlope * p.x, 0.0, 255.0); };
+    const auto coloured = [](const std::function<glm::vec3(const glm::dvec3&)>& colour) {
+        VoxelValues made = voxels([](const glm::dvec3&) { return 0; });
+        made.values.clear();
+        for (int z = 0; z < made.size.z; ++z)
+            for (int y = 0; y < made.size.y; ++y)
+                for (int x = 0; x < made.size.x; ++x) {
+                    const glm::vec3 at = colour(glm::dvec3(made.worldFromVoxel * glm::dvec4(x, y, z, 1)));
+                    made.values.insert(made.values.end(), {at.r, at.g, at.b});
+                }
+        return made;
+    };
+    const VoxelValues in = coloured([&](const glm::dvec3& p) { return glm::vec3(red(p), 90, 30); });
+    const auto made = CutVolume::colours(in);
+    ASSERT_TRUE(made.ok()) << made.error().message;
+    const auto picture = drawn(&*made);
+    std::vector<std::vector<glm::vec4>> of; // one colour everywhere
+    constexpr int kLevels = 17;
+    for (int k = 0; k <= kLevels; ++k) {
+        const auto one =
+            CutVolume::colours(coloured([&](const glm::dvec3&) { return glm::vec3(15 * k, 90, 30); }));
+        ASSERT_TRUE(one.ok());
+        of.push_back(drawn(&*one));
+    }
+    int faces = 0, wrong = 0, levels = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+        const auto at = faceAt(i, in);
+        if (!at || outside(*at, in.size) > -0.6 || red(probes_[i].rest) > 240 || red(probes_[i].rest) < 15)
+            continue; // where red is clamped it is not linear between voxels
+        ++faces;
+        const double level = std::min(red(probes_[i].rest) / 15, kLevels - 1e-6);
+        levels |= 1 << int(level);
+        const float low = of[std::size_t(level)][i].r, high = of[std::size_t(level) + 1][i].r,
+                    bytes = 0.1F * (high - low); // one and a half: texels and filters round
+        wrong += picture[i].r < low - bytes || picture[i].r > high + bytes;
+        EXPECT_NEAR(picture[i].b, of[std::size_t(level)][i].b, 6e-3)
+            << "tone mapping mixes channels a little";
+    }
+    EXPECT_GT(faces, 500);
+    EXPECT_GT(std::popcount(unsigned(levels)), 5) << "red changes over the face";
+    EXPECT_EQ(wrong, 0) << "of " << faces;
+
+    VoxelValues bad = in;
+    bad.values[3 * 12 + 1] = 256;
+    const auto loud = CutVolume::colours(bad);
+    ASSERT_FALSE(loud.ok());
+    EXPECT_NE(loud.error().message.find("(1, 1, 0)"), std::string::npos) << loud.error().message;
 }
 
 TEST_F(GlRaycastVolume, SaysWhetherItMeetsAndRefusesWhatIsNoVolume) {
