@@ -255,7 +255,7 @@ TEST_F(GlRaycastHybrid, WhatIsLeftOutHoldsNothing) {
             RaycastAgreement sum;
             addAgreement(sum, left, all, 0.25 * field_->grid().step);
             EXPECT_GT(sum.object, 250);
-            EXPECT_LE(sum.silhouettes + sum.deep, 3)
+            EXPECT_LE(sum.silhouettes + sum.deep, 3) // graze: samples lie elsewhere
                 << nameOf(kind) << ", solid " << int(solid) << ": " << sum.silhouettes << ", " << sum.deep;
         }
     }
