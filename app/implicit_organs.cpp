@@ -22,8 +22,14 @@ Status ImplicitOrgans::add(const sim::Scene& scene, const sim::TriangleMesh& met
         SEROSA_ASSIGN(SceneDeformation made, SceneDeformation::create(scene));
         deformation_ = std::make_unique<SceneDeformation>(std::move(made));
     }
-    if (deformation_)
+    if (deformation_) {
         SEROSA_TRY(deformation_->check(organs_.size(), metres));
+        if (const auto byVertices = deformation_->firstByVertices(organs_.size()); byVertices && moves)
+            return deformation_->errorOf(
+                *byVertices, "is by vertices, which move an organ at rest only, and this one can move: "
+                             "say by = \"pixels\", or leave out gravity, tools, bodies and its pose");
+    }
+    proxyCells_ = scene.look.proxyCells;
     stage_ = scene.look.stage;
     if (scene.look.cutVolume && !cutVolume_) {
         const std::string at = scene.file.string() + ":" + std::to_string(scene.look.cutVolume->line) + ": ";
@@ -118,7 +124,10 @@ Status ImplicitOrgans::place(double time) {
     placed_ = true;
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         SEROSA_ASSIGN(const std::optional<render::Warp> warp, deformation_->at(i, time));
+        SEROSA_ASSIGN(const std::optional<render::CoarseWarp> coarse, deformation_->coarseAt(i, time));
         organs_[i].caster->setWarp(warp);
+        if (coarse)
+            organs_[i].caster->setCoarse(*coarse, proxyCells_);
         organs_[i].caster->setMotion(deformation_->motionAt(i, time, frameTime_));
         if (stage_ != sim::Stage::whole)
             organs_[i].caster->setStage(surfaceBox(i, time));

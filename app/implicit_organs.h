@@ -66,6 +66,7 @@ private:
     std::unique_ptr<render::CutVolume> cutVolume_;
     std::string cutVolumeUnmet_; // what is wrong while no organ has met it
     bool placed_ = false;        // once
+    int proxyCells_ = 1;         // of what deformations by vertices move
     sim::Stage stage_ = sim::Stage::whole;
     double frameTime_ = 0; // s
     std::vector<Organ> organs_;

@@ -162,7 +162,9 @@ Result<int> writeSceneDeformation(const std::filesystem::path& sceneFile, std::s
                      " deformations, and none of number " + std::to_string(number)};
     SEROSA_TRY(checkTarget(file, "deformation.nrrd", force));
     SEROSA_ASSIGN(const SceneDeformation made, SceneDeformation::create(scene));
-    const render::DeformationTexture& texture = made.texture(number - 1);
+    if (!made.texture(number - 1))
+        return made.errorOf(number - 1, "is by vertices, and has no texture to write");
+    const render::DeformationTexture& texture = *made.texture(number - 1);
     SEROSA_TRY(writeDeformationTexture(texture, file));
     out << file.string() << ": " << texture.size().x << " x " << texture.size().y << " x " << texture.size().z
         << " texels, displacement in mm and what is kept\n";

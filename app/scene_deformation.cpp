@@ -93,6 +93,14 @@ Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
     made.scene_ = scene;
     made.met_.assign(scene.deformations.size(), false);
     for (std::size_t i = 0; i < scene.deformations.size(); ++i) {
+        if (scene.deformations[i].by == sim::DeformationBy::vertices) {
+            const Result<render::CoarseWarp> alone = render::CoarseWarp::create(
+                {{mapOf(scene.deformations[i]), mappingOf(scene.deformations[i], 0)}});
+            if (!alone.ok())
+                return made.errorOf(i, alone.error().message);
+            made.textures_.emplace_back();
+            continue;
+        }
         Result<render::DeformationTexture> texture = made.textureOf(scene.deformations[i]);
         if (!texture.ok())
             return made.errorOf(i, texture.error().message);
@@ -111,7 +119,52 @@ Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
 }
 
 render::Warp SceneDeformation::warpOf(std::size_t i, double time) const {
-    return {&textures_[i], mappingOf(scene_.deformations[i], time)};
+    return {&*textures_[i], mappingOf(scene_.deformations[i], time)};
+}
+
+std::optional<std::size_t> SceneDeformation::firstByVertices(std::size_t organ) const {
+    for (std::size_t i = 0; i < textures_.size(); ++i)
+        if (!textures_[i] && scene_.deformations[i].isOf(organ))
+            return i;
+    return std::nullopt;
+}
+
+Result<std::optional<render::CoarseWarp>> SceneDeformation::coarseAt(std::size_t organ, double time) const {
+    std::vector<render::CoarseMap> maps;
+    for (std::size_t i = 0; i < textures_.size(); ++i)
+        if (!textures_[i] && scene_.deformations[i].isOf(organ))
+            maps.push_back({mapOf(scene_.deformations[i]), mappingOf(scene_.deformations[i], time)});
+    if (maps.empty())
+        return std::optional<render::CoarseWarp>();
+    Result<render::CoarseWarp> made = render::CoarseWarp::create(std::move(maps));
+    if (!made.ok())
+        return errorOf(*firstByVertices(organ), made.error().message);
+    return std::optional(std::move(*made));
+}
+
+/// Where its box lies does not tear the organ (render/coarse_warp.h), but it may turn it inside out.
+Status SceneDeformation::checkCoarse(std::size_t organ, const sim::TriangleMesh& metres) {
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        if (textures_[i] || !scene_.deformations[i].isOf(organ))
+            continue;
+        for (const double time : timesOf(scene_.deformations[i])) {
+            SEROSA_ASSIGN(const std::optional<render::CoarseWarp> warp, coarseAt(organ, time));
+            if (const auto at = warp->foldsAt(metres.positions)) {
+                char text[160];
+                std::snprintf(
+                    text, sizeof text,
+                    "turns the organ inside out around (%.3g, %.3g, %.3g) mm: take less of it, over a "
+                    "larger extent or radius",
+                    1e3 * at->x, 1e3 * at->y, 1e3 * at->z);
+                return errorOf(i, text);
+            }
+            const auto box =
+                mappingOf(scene_.deformations[i], time).boundsOf(0.5 * scene_.deformations[i].size);
+            met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, metres.highest())) &&
+                                  glm::all(glm::lessThan(metres.lowest(), box.highest)));
+        }
+    }
+    return {};
 }
 
 Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metres) {
@@ -122,7 +175,7 @@ Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metre
                sim::isInside(tree, p, 2 * glm::distance(lowest, highest));
     };
     for (std::size_t i = 0; i < textures_.size(); ++i) {
-        if (!scene_.deformations[i].isOf(organ))
+        if (!textures_[i] || !scene_.deformations[i].isOf(organ))
             continue;
         for (const double time : timesOf(scene_.deformations[i])) {
             const render::Warp warp = warpOf(i, time);
@@ -137,7 +190,7 @@ Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metre
                                   glm::all(glm::lessThan(lowest, box.highest)));
         }
     }
-    return {};
+    return checkCoarse(organ, metres);
 }
 
 Status SceneDeformation::checkMet() const {
@@ -184,7 +237,7 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
 Result<std::optional<render::Warp>> SceneDeformation::at(std::size_t organ, double time) {
     std::vector<std::size_t> some;
     for (std::size_t i = 0; i < scene_.deformations.size(); ++i)
-        if (scene_.deformations[i].isOf(organ))
+        if (textures_[i] && scene_.deformations[i].isOf(organ))
             some.push_back(i);
     if (some.empty())
         return std::optional<render::Warp>();
@@ -200,12 +253,13 @@ glm::dmat4 SceneDeformation::motionAt(std::size_t organ, double time, double whi
     glm::dmat4 furthest(1);
     double most = 0;
     for (std::size_t i = 0; i < textures_.size(); ++i) {
-        if (!scene_.deformations[i].isOf(organ))
+        if (!textures_[i] || !scene_.deformations[i].isOf(organ))
             continue;
         const glm::dmat4 now = warpOf(i, time).mapping.objectFromLocal,
                          before = warpOf(i, time - while_).mapping.objectFromLocal;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec4 at((glm::dvec3(sim::cornerOffset(corner)) * 2.0 - 1.0) * textures_[i].half(), 1);
+            const glm::dvec4 at((glm::dvec3(sim::cornerOffset(corner)) * 2.0 - 1.0) * textures_[i]->half(),
+                                1);
             const double way = glm::length(now * at - before * at);
             if (way > most) {
                 most = way;

@@ -3,8 +3,10 @@
 // lies, at each time (docs/methods/raycast.md).
 //
 // Several of one organ are one: their sum where they share box and place, else one after the other, the first
-// next to the organ at rest, sampled anew on a box around all of theirs (render/deformation_chain.h).
+// next to the organ at rest, sampled anew on a box around all of theirs (render/deformation_chain.h). Those
+// by vertices are a list beside it (render/coarse_warp.h).
 
+#include "render/coarse_warp.h"
 #include "render/deformation_sources.h"
 #include "render/stage_box.h"
 #include "sim/scene.h"
@@ -29,18 +31,25 @@ public:
     /// After check() of all organs.
     Status checkMet() const;
 
-    /// An organ's warp at a time; it points into this, until the next call for another time. Nothing: none of
-    /// the deformations is of this organ.
+    /// What the pixel does: an organ's warp at a time; it points into this, until the next call for another
+    /// time. Nothing: none of the deformations is of this organ.
     Result<std::optional<render::Warp>> at(std::size_t organ, double time);
+    /// What the vertex stage does then, after it. Errors: of more of them than it takes.
+    Result<std::optional<render::CoarseWarp>> coarseAt(std::size_t organ, double time) const;
+    /// The first deformation of an organ by vertices, for a message; nothing: none is.
+    std::optional<std::size_t> firstByVertices(std::size_t organ) const;
+    Error errorOf(std::size_t i, const std::string& message) const;
     /// What takes a place of its box at a time to where it was a while (s) before, m; of several boxes of
-    /// the organ, of the one that goes furthest.
+    /// the organ, of the one that goes furthest. Of those that pixels do.
     glm::dmat4 motionAt(std::size_t organ, double time, double while_) const;
     /// Does it go anywhere?
     bool moves() const;
     /// The box of a scene that is drawn in two stages, at a time. \param seam m
     render::StageBox stageBox(double time, double seam) const;
-    /// Of the i-th deformation, as its kind makes it.
-    const render::DeformationTexture& texture(std::size_t i) const { return textures_[i]; }
+    /// Of the i-th deformation, as its kind makes it; null: the vertex stage does it, without one.
+    const render::DeformationTexture* texture(std::size_t i) const {
+        return textures_[i] ? &*textures_[i] : nullptr;
+    }
     /// What a user should know of what was made.
     const std::vector<std::string>& notes() const { return notes_; }
 
@@ -53,12 +62,12 @@ private:
         render::TextureMapping mapping;
         double time = -1;
     };
+    Status checkCoarse(std::size_t organ, const sim::TriangleMesh& metres);
     Status link(const std::vector<std::size_t>& some, double time, Chain& chain) const;
-    Error errorOf(std::size_t i, const std::string& message) const;
 
     sim::Scene scene_;
-    std::vector<render::DeformationTexture> textures_; // one a deformation
-    std::vector<bool> met_;                            // an organ lies in its box
+    std::vector<std::optional<render::DeformationTexture>> textures_; // one a deformation, by pixels
+    std::vector<bool> met_;                                           // an organ lies in its box
     std::map<std::vector<std::size_t>, Chain> chains_;
     std::vector<std::string> notes_;
 };

@@ -5,6 +5,7 @@
 #include "gpu/gl.h"
 #include "gpu/handles.h"
 #include "models/phantom.h"
+#include "render/deformation_chain.h"
 #include "render/depth_maps.h"
 #include "render/raycast_measures.h"
 
@@ -18,6 +19,7 @@ namespace {
 constexpr int kPictureSize = 512; // pixels, as in the paper
 constexpr int kSamples = 128;     // of the distance field along the longest side
 constexpr int kMargin = 3;        // voxels
+constexpr int kProxyCells = 16;   // of the hybrid
 constexpr glm::dvec3 kDirection{-0.35, -0.45, -1};
 
 struct Model {
@@ -123,6 +125,33 @@ struct DepthSubject {
         SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(subject.space, made.maps->field()));
         caster.setWarp(render::Warp{subject.knife.get(), subject.mapping});
         made.cut = std::make_unique<render::Raycaster>(std::move(caster));
+        return made;
+    }
+};
+
+/// A knife's cut, twisted: by the vertex stage, or all of it in the pixel, from one texture (section 6.3).
+struct HybridSubject {
+    std::unique_ptr<render::ChainedWarp> chained;
+    std::unique_ptr<render::Raycaster> hybrid, pixels;
+
+    static Result<HybridSubject> of(const Subject& subject) {
+        HybridSubject made;
+        const render::Warp knife{subject.knife.get(), subject.mapping};
+        SEROSA_ASSIGN(
+            render::ChainedWarp chained,
+            render::chain({knife, {subject.twist.get(), subject.mapping}}, render::TexelFormat::half));
+        made.chained = std::make_unique<render::ChainedWarp>(std::move(chained));
+        for (std::unique_ptr<render::Raycaster>* const one : {&made.hybrid, &made.pixels}) {
+            SEROSA_ASSIGN(render::Raycaster caster, render::Raycaster::create(subject.space, *subject.field));
+            *one = std::make_unique<render::Raycaster>(std::move(caster));
+        }
+        made.pixels->setWarp(render::Warp{&made.chained->texture, made.chained->mapping});
+        made.hybrid->setWarp(knife);
+        SEROSA_ASSIGN(const render::CoarseWarp twist,
+                      render::CoarseWarp::create(
+                          {{mapOf(0.55 * (subject.highest - subject.lowest), render::MapKind::twist),
+                            subject.mapping}}));
+        made.hybrid->setCoarse(twist, kProxyCells);
         return made;
     }
 };
@@ -311,6 +340,9 @@ Status benchRaycast(const Options& options, Report& report) {
     add("distance field, no skipping by it", *shape.cut, near, every);
     add("depth-map cube", *cube.cut, near, {});
     add("depth map", *pair.cut, near, {});
+    SEROSA_ASSIGN(const HybridSubject hybrid, HybridSubject::of(shape));
+    add("hybrid", *hybrid.hybrid, near, {});
+    add("all in the pixel", *hybrid.pixels, near, {});
     const render::RaycastView far = shape.view(kFar);
     render::RaycastLook few;
     few.coarse = 0.5;
@@ -377,6 +409,7 @@ Status benchRaycast(const Options& options, Report& report) {
     report.ratio("raycast_depth_over_distance",
                  rounds.ratio("depth map", "distance field, no skipping by it"));
     report.ratio("raycast_small_coarse_over_full", rounds.ratio("small, coarse", "small"));
+    report.ratio("raycast_hybrid_over_pixels", rounds.ratio("hybrid", "all in the pixel"));
     const double mean = std::accumulate(shares.begin(), shares.end(), 0.0) / double(shares.size());
     report.ratio("raycast_cuts_over_continuous",
                  {mean, *std::min_element(shares.begin(), shares.end()),

@@ -56,7 +56,7 @@ glm::dvec3 RaycastTwin::fieldGradient(const glm::dvec3& rest) const {
 }
 
 RaycastTwin::Place RaycastTwin::at(const glm::dvec3& shown) const {
-    const Warp::Point warped = warp_.at(shown);
+    const Warp::Point warped = warp_.at(coarse_ ? coarse_->back(shown) : shown);
     Place place;
     place.rest = warped.rest;
     place.mask = warped.mask;
@@ -64,6 +64,13 @@ RaycastTwin::Place RaycastTwin::at(const glm::dvec3& shown) const {
     if (solid_ == Solid::shell)
         place.body = std::max(place.distance, -thickness_ - place.distance);
     return place;
+}
+
+glm::dvec3 RaycastTwin::normal(const glm::dvec3& shown, const glm::dvec3& rest, bool face) const {
+    const glm::dvec3 at = coarse_ ? coarse_->back(shown) : shown;
+    const glm::dvec3 outward =
+        face ? -warp_.maskGradient(at) : glm::transpose(warp_.jacobian(at)) * fieldGradient(rest);
+    return coarse_ ? glm::transpose(coarse_->backJacobian(shown)) * outward : outward;
 }
 
 RaycastProbe RaycastTwin::cast(const glm::dvec3& from, const glm::dvec3& along, double start,
@@ -97,9 +104,8 @@ RaycastProbe RaycastTwin::cast(const glm::dvec3& from, const glm::dvec3& along, 
                                   : RaycastProbe::surface;
                 hit.t = high;
                 hit.rest = inner.rest;
-                hit.normal = face ? -warp_.maskGradient(shown)
-                                  : glm::transpose(warp_.jacobian(shown)) * fieldGradient(inner.rest);
-                hit.normal = glm::normalize(back ? -hit.normal : hit.normal);
+                const glm::dvec3 outward = normal(shown, inner.rest, face);
+                hit.normal = glm::normalize(back ? -outward : outward);
                 return hit;
             }
         }

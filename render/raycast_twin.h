@@ -3,6 +3,7 @@
 // tested against. Reads the same textures (the field as DistanceVolume::read gives it, the displacement as
 // DeformationTexture holds it).
 
+#include "render/coarse_warp.h"
 #include "render/deformation_texture.h"
 #include "render/raycaster.h"
 
@@ -21,6 +22,10 @@ public:
     RaycastTwin(std::function<double(const glm::dvec3& rest)> field, double voxel, const Warp& warp,
                 Solid solid, double thickness, double step);
 
+    /// Moves all of it by these maps, too, by their closed-form inverse; null: by none. \param coarse
+    /// outlives this
+    void setCoarse(const CoarseWarp* coarse) { coarse_ = coarse; }
+
     /// The first thing that a ray meets between two distances along it, m. Probe::t from `from` on.
     RaycastProbe cast(const glm::dvec3& from, const glm::dvec3& along, double start, double end) const;
     /// Of the body at rest, m; negative inside.
@@ -34,10 +39,12 @@ private:
     };
     Place at(const glm::dvec3& shown) const;
     glm::dvec3 fieldGradient(const glm::dvec3& rest) const;
+    glm::dvec3 normal(const glm::dvec3& shown, const glm::dvec3& rest, bool face) const;
 
     std::function<double(const glm::dvec3&)> field_;
     double voxel_; // m
     Warp warp_;
+    const CoarseWarp* coarse_ = nullptr;
     Solid solid_;
     double thickness_, step_;
 };

@@ -1,9 +1,11 @@
 // See render/raycaster.h.
 #include "render/raycaster.h"
 
+#include "base/check.h"
 #include "render/raycast_skip.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -64,6 +66,7 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     highest_ = grid.lowest + grid.step * glm::dvec3(grid.size - 1);
     mapping_.reset();
     beforeFromNow_ = glm::dmat4(1);
+    coarse_.reset();
     if (!warp)
         return;
     const DeformationTexture& texture = *warp->texture;
@@ -79,6 +82,20 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     // A voxel more: what a box cuts off is seen to begin.
     lowest_ = glm::min(lowest_, glm::max(low, lowest_ - most)) - grid.step;
     highest_ = glm::max(highest_, glm::min(high, highest_ + most)) + grid.step;
+}
+
+void Raycaster::setCoarse(const CoarseWarp& coarse, int cells) {
+    SEROSA_CHECK(!lattice_ && !stage_, "the vertex stage moves what is at rest and drawn whole");
+    coarse_ = coarse;
+    if (!proxy_.is(lowest_, highest_, cells))
+        proxy_ = RayProxy(lowest_, highest_, cells);
+    lowest_ = glm::dvec3(std::numeric_limits<double>::infinity());
+    highest_ = -lowest_;
+    for (const glm::dvec3& corner : proxy_.corners()) {
+        const glm::dvec3 moved = coarse.forward(corner);
+        lowest_ = glm::min(lowest_, moved);
+        highest_ = glm::max(highest_, moved);
+    }
 }
 
 void Raycaster::setStage(const std::optional<StageBox>& stage) {
@@ -134,10 +151,14 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_SAMPLES", "1"});
     if (variant.coarse)
         defines.push_back({"RAYCAST_COARSE", "1"});
+    if (variant.proxy)
+        defines.push_back({"RAYCAST_PROXY", "1"});
     if (variant.probe)
         defines.push_back({"RAYCAST_PROBE", "1"});
-    SEROSA_ASSIGN(gpu::Program made,
-                  gpu::Program::create(gpu::ShaderLibrary(), {"raycast.vert", "raycast.frag"}, defines));
+    const std::vector<std::string> stages =
+        variant.proxy ? std::vector<std::string>{"raycast_proxy.vert", "raycast_proxy.geom", "raycast.frag"}
+                      : std::vector<std::string>{"raycast.vert", "raycast.frag"};
+    SEROSA_ASSIGN(gpu::Program made, gpu::Program::create(gpu::ShaderLibrary(), stages, defines));
     return &programs_.emplace(variant, std::move(made)).first->second;
 }
 
@@ -162,11 +183,12 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         2 / (frame.size.y * glm::length(glm::vec3(rows[1]))) * rows[3]; // its width at a place
     const bool coarse = look.coarse > 0 && mayBeCoarse(look, pixel);
     const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
-    SEROSA_ASSIGN(gpu::Program* const made,
-                  program({look.solid, look.search, look.normals, field_.kind,
-                           int(skipField) + 2 * int(look.skipCut), volume, lattice_ != nullptr,
-                           lattice_ && lattice_->isCut(), mapping_.has_value(), wound, stage_.has_value(),
-                           field_.colours != nullptr && !probe, look.antialias && !probe, coarse, probe}));
+    SEROSA_ASSIGN(
+        gpu::Program* const made,
+        program({look.solid, look.search, look.normals, field_.kind, int(skipField) + 2 * int(look.skipCut),
+                 volume, lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
+                 stage_.has_value(), field_.colours != nullptr && !probe, look.antialias && !probe, coarse,
+                 coarse_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = field_.grid;
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };
@@ -188,9 +210,10 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     program.set("u_step", float(look.step * voxel)).set("u_threshold", float(look.threshold * voxel));
     program.set("u_thickness", float(look.thickness / unit_));
     program.set("u_behind", float(look.closes ? kBehind * voxel : 0));
+    if (coarse || coarse_)
+        program.set("u_pixel", pixel);
     if (coarse)
-        program.set("u_pixel", pixel)
-            .set("u_coarse", float(look.coarse))
+        program.set("u_coarse", float(look.coarse))
             .set("u_beforeFromNow",
                  glm::mat4(objectFromWorld * beforeFromNow_ * glm::inverse(objectFromWorld)));
     if (mapping_) {
@@ -208,6 +231,20 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         const double least = leastStretch(affine);
         program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(least));
         program.set("u_shareStretch", float(largestStretch(affine) / least));
+    }
+    if (coarse_) {
+        coarse_->set(program, coarseMaps_, origin_, unit_);
+        proxy_.set(program, origin_, unit_);
+        program.set("u_coarseBy", float(0.5 * voxel)).set("u_planeSize", frame.size);
+        const glm::dmat4 objectFromClip = glm::inverse(glm::dmat4(frame.clipFromLattice));
+        const auto seenAt = [&objectFromClip](double x, double y) {
+            const glm::dvec4 at = objectFromClip * glm::dvec4(x, y, 0, 1);
+            return glm::dvec3(at) / at.w;
+        };
+        const glm::dvec3 middle = seenAt(0, 0);
+        program.set("u_planeMiddle", glm::vec3(middle));
+        program.set("u_planeRight", glm::vec3(seenAt(1, 0) - middle));
+        program.set("u_planeUp", glm::vec3(seenAt(0, 1) - middle));
     }
     if (stage_) {
         stage_->set(program, origin_, unit_);
@@ -229,18 +266,32 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
             program.set("u_skin", look.skin);
     }
     program.use();
-    glBindVertexArray(empty_.id());
+    drawFaces(look, stage_ && !probe);
+    return {};
+}
+
+void Raycaster::drawFaces(const RaycastLook& look, bool blended) const {
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT); // the far faces: a camera may be inside
-    if (stage_ && !probe) {
+    if (blended) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
-    glDrawArrays(GL_TRIANGLES, 0, 36);
-    if (stage_ && !probe)
+    if (coarse_) {
+        // A ray a pixel is of the tetrahedra around the pixel's middle, which cover it as a whole.
+        const bool sampled = glIsEnabled(GL_MULTISAMPLE);
+        if (!look.antialias)
+            glDisable(GL_MULTISAMPLE);
+        proxy_.draw();
+        if (sampled)
+            glEnable(GL_MULTISAMPLE);
+    } else {
+        glBindVertexArray(empty_.id());
+        glDrawArrays(GL_TRIANGLES, 0, 36);
+    }
+    if (blended)
         glDisable(GL_BLEND);
     glCullFace(GL_BACK);
-    return {};
 }
 
 Status Raycaster::draw(const Frame& frame, const RaycastLook& look) {

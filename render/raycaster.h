@@ -9,11 +9,13 @@
 #include "base/result.h"
 #include "gpu/handles.h"
 #include "gpu/program.h"
+#include "render/coarse_warp.h"
 #include "render/cut_volume.h"
 #include "render/deformation_texture.h"
 #include "render/frame.h"
 #include "render/lattice_warp.h"
 #include "render/ray_field.h"
+#include "render/ray_proxy.h"
 #include "render/stage_box.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
@@ -83,6 +85,10 @@ public:
     /// The organ as its lattice has it, from now on; null: at rest. A warp then acts on the organ at rest.
     /// \param lattice outlives this
     void setLattice(const LatticeWarp* lattice) { lattice_ = lattice; }
+    /// The hybrid of section 6.3: moves what setWarp() leaves by these maps in the vertex stage; after
+    /// setWarp, which ends it. Not beside a lattice or a stage. \param cells of the proxy, along the longest
+    /// side
+    void setCoarse(const CoarseWarp& coarse, int cells);
     /// What is ray-cast lies in this box, and its colour goes over what was drawn before by its seam;
     /// nothing: all is, after setWarp.
     void setStage(const std::optional<StageBox>& stage);
@@ -106,7 +112,7 @@ private:
         FieldKind field;
         int skip;   // 1 by the field, 2 by the cut
         int volume; // CutVolume::kind(), 0: none
-        bool lattice, cut, warped, wound, staged, coloured, samples, coarse, probe;
+        bool lattice, cut, warped, wound, staged, coloured, samples, coarse, proxy, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -115,6 +121,7 @@ private:
     /// Can any sample of what is drawn lie further apart than a step? \param pixel its width at a place
     bool mayBeCoarse(const RaycastLook& look, const glm::vec4& pixel) const;
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
+    void drawFaces(const RaycastLook& look, bool blended) const;
 
     RayField field_;
     const LatticeWarp* lattice_ = nullptr;
@@ -130,6 +137,9 @@ private:
     std::optional<TextureMapping> mapping_; // m
     glm::dmat4 beforeFromNow_{1};           // m
     std::optional<StageBox> stage_;
+    std::optional<CoarseWarp> coarse_;
+    RayProxy proxy_; // of what setWarp() leaves
+    gpu::Buffer coarseMaps_;
     glm::dvec3 lowest_{0}, highest_{0};
     gpu::VertexArray empty_;
     gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion

@@ -36,6 +36,15 @@
 
 #define SRS_LIP_STEP 0.1 // of the step: at the lip of a blade's cut they are no shorter
 
+// Deformations that the vertex stage does (render/coarse_warp.h).
+#define SRS_COARSE_MAPS 4
+#define SRS_COARSE_TWIST 0
+#define SRS_COARSE_BEND 1
+#define SRS_COARSE_PULL 2
+#define SRS_COARSE_WAVE 3
+#define SRS_COARSE_STEPS 20  // Newton's, of a pull or a wave
+#define SRS_PROXY_SLACK 0.02 // of a pixel: so far a way goes on beyond a tetrahedron
+
 // The lattice's displacement texture (render/lattice_warp.h).
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be

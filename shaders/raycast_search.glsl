@@ -23,8 +23,7 @@ struct Place {
     Warped at;
 };
 
-Place placeAt(vec3 shown) {
-    Warped warped = warp(shown);
+Place placeOf(Warped warped) {
     vec2 parts = fieldParts(warped.rest);
     float f = parts.x + parts.y, body = f;
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
@@ -35,6 +34,10 @@ Place placeAt(vec3 shown) {
     if (!warped.covered)
         f = body = u_boxSize;
     return Place(f, body, free, warped);
+}
+
+Place placeAt(vec3 shown) {
+    return placeOf(warp(shown));
 }
 
 struct Hit {
@@ -54,10 +57,15 @@ float mostStep(Place place) {
 #endif
 }
 
+uniform vec4 u_pixel; // its width at a place, object space
 #ifdef RAYCAST_COARSE
 uniform float u_coarse;        // share of a pixel, and of a frame's way on the screen
-uniform vec4 u_pixel;          // its width at a place, object space
 uniform mat4 u_beforeFromNow;  // object space: where what is in the texture's box was a frame ago
+#endif
+#ifdef RAYCAST_PROXY
+// Of a way through a tetrahedron, which is searched as the vertex stage leaves it at rest.
+float wayPixel = 0.0;   // width of a pixel there
+float wayStretch = 1.0; // at rest, of one shown: even steps are even in what is shown
 #endif
 
 /// The step before it adapts. CS07 section 6.3: what is small on the screen or moves fast on it has fewer samples. A sample
@@ -65,7 +73,11 @@ uniform mat4 u_beforeFromNow;  // object space: where what is in the texture's b
 float baseStep(vec3 shown, vec3 along, Place place) {
     float base = u_step;
 #ifdef RAYCAST_COARSE
+#ifdef RAYCAST_PROXY
+    float seen = wayPixel;
+#else
     float seen = dot(u_pixel, vec4(shown, 1.0));
+#endif
 #ifdef RAYCAST_LATTICE
     seen = max(seen, b_way);
 #endif
@@ -73,6 +85,9 @@ float baseStep(vec3 shown, vec3 along, Place place) {
     if (place.at.inside)
         seen = max(seen, length(way - dot(way, along) * along));
     base = clamp(u_coarse * seen, u_step, SRS_MOST_COARSE * u_step);
+#endif
+#if defined(RAYCAST_PROXY) && RAYCAST_SEARCH != SRS_SEARCH_JACOBIAN
+    base *= wayStretch;
 #endif
     return base;
 }
@@ -92,27 +107,6 @@ float searchStep(vec3 shown, vec3 along, float body, float stretch, float base) 
 #endif
 }
 
-/// Is tissue entered far from its surface, although the body's field was not negative before? In an opened cut the field is that
-/// of one side or the other, as it would go on there.
-bool entersInside(Place place) {
-#ifdef RAYCAST_CUT
-    return place.body < -0.05 * u_step;
-#else
-    return false;
-#endif
-}
-
-#ifdef RAYCAST_STAGE
-#include "stage_box.glsl"
-
-float stageAt(vec3 shown) {
-#ifdef RAYCAST_LATTICE
-    shown = moveBack(shown).rest;
-#endif
-    return stageDepth(shown);
-}
-#endif
-
 /// Of a place, what tells whether a ray meets something on its way to the next.
 struct Side {
     float body; // its field
@@ -130,6 +124,27 @@ bool inside(Side side) {
 bool matter(Side side) {
     return inside(side) && side.kept;
 }
+
+/// Is tissue entered far from its surface, although the body's field was not negative before? In an opened cut the field is that
+/// of one side or the other, as it would go on there.
+bool entersInside(Side side) {
+#ifdef RAYCAST_CUT
+    return side.body < -0.05 * u_step;
+#else
+    return false;
+#endif
+}
+
+#ifdef RAYCAST_STAGE
+#include "stage_box.glsl"
+
+float stageAt(vec3 shown) {
+#ifdef RAYCAST_LATTICE
+    shown = moveBack(shown).rest;
+#endif
+    return stageDepth(shown);
+}
+#endif
 
 /// Has the ray met something between two places?
 bool crossed(Side before, Side now) {
@@ -207,22 +222,24 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
                 below = at;
             }
         }
-        Place in_ = placeAt(from + high * along);
+        if (found) {
+            Place met = placeAt(from + high * along);
 #if RAYCAST_SEARCHES_BODY
-        hit.any = found && in_.at.mask >= 0.5 && !entersInside(in_);
-        hit.back = !inside(now);
+            hit.any = above.kept && !entersInside(above);
+            hit.back = !inside(now);
 #elif RAYCAST_SOLID == SRS_SOLID_COMBINED
-        hit.any = found && placeAt(from + low * along).body < 0.0 != in_.body < 0.0 && !entersInside(in_);
-        hit.back = in_.body >= 0.0;
+            hit.any = inside(below) != inside(above) && !entersInside(above);
+            hit.back = !inside(above);
 #else
-        hit.any = found;
-        hit.face = placeAt(from + low * along).body < 0.0 || entersInside(in_);
+            hit.any = true;
+            hit.face = inside(below) || entersInside(above);
 #if RAYCAST_SOLID == SRS_SOLID_SHELL
-        hit.back = !hit.face && in_.distance < -0.5 * u_thickness;
+            hit.back = !hit.face && met.distance < -0.5 * u_thickness;
 #endif
 #endif
-        hit.t = high;
-        hit.rest = in_.at.rest;
+            hit.t = high;
+            hit.rest = met.at.rest;
+        }
     }
     return hit;
 }

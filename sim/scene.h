@@ -150,6 +150,7 @@ struct Look {
     RayNormals normals = RayNormals::warped;
     bool antialias = false; // a ray for each sample of a pixel
     std::optional<CutVolume> cutVolume;
+    int proxyCells = 16;        // of what deformations by vertices move, along an organ's longest side
     bool coarseSampling = true; // of what is small on the screen, or moves fast there
     Mapping mapping = Mapping::curvature;
     SurfaceColour colour = SurfaceColour::tissue;
@@ -178,7 +179,8 @@ enum class DeformationKind {
     image,
     texture
 };
-enum class TexelWord { bytes, half, single }; // 4, 8, 16 bytes a texel
+enum class DeformationBy { pixels, vertices }; // which stage does it (render/coarse_warp.h)
+enum class TexelWord { bytes, half, single };  // 4, 8, 16 bytes a texel
 struct DeformationKey {
     double time = 0;  // s
     glm::dvec3 at{0}; // m: middle of the box
@@ -187,6 +189,7 @@ struct DeformationKey {
 };
 struct Deformation {
     DeformationKind kind = DeformationKind::twist;
+    DeformationBy by = DeformationBy::pixels;
     std::vector<std::size_t> organs;                     // that it is of; empty: all
     glm::dvec3 at{0}, size{0};                           // of its box: middle, lengths along its own axes, m
     glm::dvec3 up{0, 1, 0}, along{1, 0, 0};              // its own y and x axis, world; orthonormal

@@ -373,6 +373,10 @@ std::vector<SceneKey> otherKeys() {
             "look", "coarse_sampling", Kind::boolean, kAny, "true",
             "implicit: samples lie no nearer than the picture shows: half a pixel, and of what moves fast on "
             "the screen half of its way in a frame; nothing changes where search_step is longer than that"),
+        plain(
+            "look", "proxy_cells", Kind::integer, {2, 96}, "16",
+            "implicit: cells of what deformations by vertices move, along an organ's longest side, each cut "
+            "into six tetrahedra"),
         word("look", "normals", {"warped", "gradient"}, "\"warped\"",
              "implicit: the normal at rest, carried by the map's Jacobian; or the gradient of the deformed "
              "field, for comparison"),

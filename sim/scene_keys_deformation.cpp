@@ -9,6 +9,9 @@ std::vector<SceneKey> deformationKeys() {
              {"twist", "bend", "pull", "peel", "wave", "knife", "seam", "incision", "sphere", "box", "points",
               "image", "texture"},
              nullptr, "which map (docs/methods/raycast.md)"),
+        word("deformation", "by", {"pixels", "vertices"}, "\"pixels\"",
+             "which stage does it: ray by ray; or twist, bend, pull, wave: forward, at the corners of "
+             "tetrahedra (look.proxy_cells), after all that pixels do"),
         plain("deformation", "organs", Kind::texts, kAny, "",
               "names of the organs that it is of; all of them where absent"),
         quantity("deformation", "at", Dim::length, kAny, nullptr, "middle of its box", Kind::quantity3),

@@ -130,6 +130,7 @@ Status readLightAndLook(const SceneTable& light, const SceneTable& look, Scene& 
     SEROSA_TRY(look.readWord("normals", scene.look.normals));
     SEROSA_TRY(look.read("antialias", scene.look.antialias));
     SEROSA_TRY(look.read("coarse_sampling", scene.look.coarseSampling));
+    SEROSA_TRY(look.read("proxy_cells", scene.look.proxyCells));
     SEROSA_TRY(look.read("surface", scene.look.surface));
     SEROSA_TRY(look.read("lattice", scene.look.lattice));
     SEROSA_TRY(look.read("tools", scene.look.tools));

@@ -67,6 +67,21 @@ Status checkKind(const SceneTable& table, Kind kind) {
     return {};
 }
 
+/// What the vertex stage can do, and what it has no use for.
+Status checkBy(const SceneTable& table, const Deformation& made) {
+    if (made.by == DeformationBy::pixels)
+        return {};
+    if (made.kind != Kind::twist && made.kind != Kind::bend && made.kind != Kind::pull &&
+        made.kind != Kind::wave)
+        return table.errorAt("by",
+                             "\"vertices\" can twist, bend, pull and wave: leave this kind to \"pixels\"");
+    for (const char* const key : {"wound", "texels", "format"})
+        if (table.has(key))
+            return table.errorAt(
+                key, "has no effect on a deformation by vertices, which has no texture: remove it");
+    return {};
+}
+
 Status readPath(const SceneSource& source, const SceneTable& table, const std::string& path,
                 Deformation& made) {
     SEROSA_ASSIGN(const auto places, table.tables("path"));
@@ -157,6 +172,8 @@ Status readOne(const SceneSource& source, const SceneTable& table, const std::st
     made.line = table.lineOf("kind");
     SEROSA_TRY(readOrgans(table, organs, made));
     SEROSA_TRY(checkKind(table, made.kind));
+    SEROSA_TRY(table.readWord("by", made.by));
+    SEROSA_TRY(checkBy(table, made));
     SEROSA_TRY(table.read("at", made.at));
     SEROSA_TRY(table.read("size", made.size));
     SEROSA_TRY(readAxes(table, made));
@@ -183,6 +200,18 @@ Status readOne(const SceneSource& source, const SceneTable& table, const std::st
     return readKeys(source, table, path, made);
 }
 
+/// Vertices move what pixels have left.
+Status checkOrder(const SceneTable& table, const std::vector<Deformation>& before, const Deformation& made) {
+    for (const Deformation& other : before) {
+        const bool both = made.organs.empty() || other.organs.empty() ||
+                          std::any_of(made.organs.begin(), made.organs.end(),
+                                      [&other](std::size_t organ) { return other.isOf(organ); });
+        if (both && other.by == DeformationBy::vertices && made.by == DeformationBy::pixels)
+            return table.errorAt("kind", "comes after one by vertices, which act last: put it before");
+    }
+    return {};
+}
+
 } // namespace
 
 Status readDeformations(const SceneSource& source, const SceneTable& top, const std::filesystem::path& folder,
@@ -196,6 +225,7 @@ Status readDeformations(const SceneSource& source, const SceneTable& top, const 
         SEROSA_TRY(readOne(source, table, path, folder, scene.organs, made));
         if (look.show != Show::implicit)
             return table.errorAt("kind", "has no effect: surfaces are drawn; set look.show = \"implicit\"");
+        SEROSA_TRY(checkOrder(table, scene.deformations, made));
         scene.deformations.push_back(std::move(made));
     }
     SEROSA_ASSIGN(const toml::table* const lookTable, top.table("look"));
@@ -204,6 +234,13 @@ Status readDeformations(const SceneSource& source, const SceneTable& top, const 
         return table.errorAt("stage", "needs one [deformation], whose box it speaks of");
     if (look.stage != Stage::whole && look.show != Show::implicit)
         return table.errorAt("stage", "has no effect: set look.show = \"implicit\"");
+    const bool vertices =
+        std::any_of(scene.deformations.begin(), scene.deformations.end(),
+                    [](const Deformation& one) { return one.by == DeformationBy::vertices; });
+    if (look.stage != Stage::whole && vertices)
+        return table.errorAt("stage", "does not go with a deformation by vertices, which leaves its box");
+    if (look.proxyCells != Look().proxyCells && !vertices)
+        return table.errorAt("proxy_cells", "has no effect: no [[deformation]] says by = \"vertices\"");
     return {};
 }
 

@@ -46,6 +46,7 @@ Result<RaycastModel> raycastBall(int samples) {
 Status verifyRaycast(const VerifyOptions& options, CheckList& checks) {
     SEROSA_TRY(verifyRaycastKnown(options, checks));
     SEROSA_TRY(verifyRaycastTwin(options, checks));
+    SEROSA_TRY(verifyRaycastHybrid(options, checks));
     SEROSA_TRY(verifyRaycastWays(options, checks));
     SEROSA_TRY(verifyRaycastDepth(options, checks));
     return verifyRaycastFigure3(options, checks);

@@ -29,7 +29,8 @@ Status verifyRaycastTwin(const VerifyOptions& options, CheckList& checks);  // a
 Status verifyRaycastDepth(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_depth.cpp
 Status verifyRaycastKnown(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_known.cpp
 Status verifyRaycastFigure3(const VerifyOptions& options,
-                            CheckList& checks);                            // app/verify/raycast_figure3.cpp
-Status verifyRaycastWays(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_ways.cpp
+                            CheckList& checks);                              // app/verify/raycast_figure3.cpp
+Status verifyRaycastHybrid(const VerifyOptions& options, CheckList& checks); // app/verify/raycast_hybrid.cpp
+Status verifyRaycastWays(const VerifyOptions& options, CheckList& checks);   // app/verify/raycast_ways.cpp
 
 } // namespace serosa::app

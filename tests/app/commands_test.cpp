@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 namespace serosa::app {
@@ -100,6 +101,64 @@ TEST(SceneCommands, CheckAndExplain) {
     EXPECT_NE(explain.out.find("line 7    3000 Pa"), std::string::npos) << explain.out;
     EXPECT_NE(explain.out.find("default   1000 kg/m3"), std::string::npos) << explain.out;
     EXPECT_NE(explain.out.find("steps a frame"), std::string::npos) << explain.out;
+}
+
+const std::string kDeformed =
+    "schema = 1\n[[organ]]\nmodel = \"ball.ply\"\nlength_unit = \"mm\"\nnodes = 300\n"
+    "[look]\nshow = \"implicit\"\n[deformation]\nat = [\"0 mm\", \"0 mm\", \"0 mm\"]\nformat = \"single\"\n";
+
+/// D of a texel of a scene's deformation, mm: written by the program, side texels along each axis.
+std::array<float, 3> texelOf(const TestFolder& folder, const std::string& scene, int side, int x, int y,
+                             int z) {
+    folder.write("some.toml", kDeformed + scene);
+    const ChildResult made =
+        runSerosa(folder.path(), {"scene", "deformation", "some.toml", "-o", "some.nrrd", "--force"});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    const std::string all = readWhole(folder.path() / "some.nrrd");
+    const std::size_t head = all.find("\n\n") + 2;
+    EXPECT_EQ(all.size() - head, std::size_t(side * side * side * 4) * sizeof(float));
+    std::array<float, 3> texel{};
+    const std::size_t at = head + std::size_t(x + side * (y + side * z)) * 4 * sizeof(float);
+    if (at + sizeof texel <= all.size())
+        std::memcpy(texel.data(), all.data() + at, sizeof texel);
+    return texel;
+}
+
+// A place that was dragged comes back to where it rests; what is far from all of them stays.
+TEST(SceneCommands, PointsOfASceneAreDragged) {
+    const TestFolder folder;
+    ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
+    const std::string scene =
+        "kind = \"points\"\nsize = [\"100 mm\", \"100 mm\", \"100 mm\"]\n"
+        "texels = [20, 20, 20]\nreach = \"25 mm\"\npoints = [{ from = [\"2.5 mm\", \"-1.5 mm\", "
+        "\"2.5 mm\"], to = [\"12.5 mm\", \"2.5 mm\", \"2.5 mm\"] }]\n";
+    const auto there = texelOf(folder, scene, 20, 12, 10, 10), far = texelOf(folder, scene, 20, 3, 10, 10);
+    EXPECT_NEAR(there[0], -10, 1e-4);
+    EXPECT_NEAR(there[1], -4, 1e-4);
+    EXPECT_NEAR(there[2], 0, 1e-4);
+    EXPECT_EQ(far, (std::array<float, 3>{0, 0, 0}));
+}
+
+// Forward x' = x + y / 10: backward D = -y' / 10, which a file of another program's forward displacement
+// comes to.
+TEST(SceneCommands, AForwardImageOfASceneIsInverted) {
+    const TestFolder folder;
+    ASSERT_EQ(runSerosa(folder.path(), {"phantom", "ball", "--faces", "500", "-o", "ball.ply"}).exitCode, 0);
+    std::string nrrd =
+        "NRRD0004\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 3 10 10 10\n"
+        "space directions: none (10,0,0) (0,10,0) (0,0,10)\nkinds: vector domain domain domain\n"
+        "space origin: (-45,-45,-45)\nencoding: ascii\n\n";
+    for (int z = 0; z < 10; ++z)
+        for (int y = 0; y < 10; ++y)
+            for (int x = 0; x < 10; ++x)
+                nrrd += std::to_string(0.1 * (10 * y - 45)) + " 0 0\n";
+    folder.write("forward.nrrd", nrrd);
+    for (const int y : {2, 4, 7}) {
+        const auto texel = texelOf(folder, "kind = \"image\"\nfile = \"forward.nrrd\"\n", 10, 5, y, 4);
+        EXPECT_NEAR(texel[0], -0.1 * (10 * y - 45), 1e-4) << y;
+        EXPECT_NEAR(texel[1], 0, 1e-4);
+        EXPECT_NEAR(texel[2], 0, 1e-4);
+    }
 }
 
 // A texture that was written is the deformation that it was made from.

@@ -87,6 +87,36 @@ TEST_F(GlSceneFiles, ADeformationIsOfTheOrgansThatItNames) {
     EXPECT_NE(left.err.find("outside of every organ that it is of"), std::string::npos) << left.err;
 }
 
+TEST_F(GlSceneFiles, TheVertexStageMovesWhatItCan) {
+    const auto scene = [](const std::string& bend, const std::string& top = "") {
+        return top + head() + kTail +
+               "[[deformation]]\nkind = \"sphere\"\nat = [\"0 mm\", \"30 mm\", \"0 mm\"]\n" +
+               "size = [\"60 mm\", \"60 mm\", \"60 mm\"]\nradius = \"15 mm\"\norgans = [\"left\"]\n" +
+               "[[deformation]]\nkind = \"bend\"\nby = \"vertices\"\norgans = [\"left\"]\n" + bend;
+    };
+    const std::string box = "at = [\"0 mm\", \"0 mm\", \"0 mm\"]\nsize = [\"90 mm\", \"90 mm\", \"90 mm\"]\n";
+    folder_.write("bent.toml", scene(box + "angle = \"50 deg\"\nextent = \"80 mm\"\n"));
+    const ChildResult bent = run("bent.toml");
+    EXPECT_EQ(bent.exitCode, 0) << bent.err;
+    std::string falls = scene(box + "angle = \"50 deg\"\nextent = \"80 mm\"\n");
+    falls.replace(falls.find("\"0 m/s2\""), 8, "\"9 m/s2\"");
+    folder_.write("falls.toml", falls);
+    folder_.write("folds.toml", scene(box + "angle = \"170 deg\"\nextent = \"60 mm\"\n"));
+    folder_.write("away.toml",
+                  scene("at = [\"0 mm\", \"500 mm\", \"0 mm\"]\nsize = [\"90 mm\", \"90 mm\", \"90 mm\"]\n"
+                        "angle = \"50 deg\"\nextent = \"80 mm\"\n"));
+    const std::pair<const char*, const char*> cases[] = {{"falls.toml", "this one can move"},
+                                                         {"folds.toml", "inside out"},
+                                                         {"away.toml", "outside of every organ"}};
+    for (const auto& [file, says] : cases) {
+        const ChildResult refused = run(file);
+        EXPECT_EQ(refused.exitCode, 2) << file;
+        EXPECT_EQ(refused.errorLines(), 1u) << refused.err;
+        EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
+        EXPECT_NE(refused.err.find(std::string(file) + ":2"), std::string::npos) << refused.err;
+    }
+}
+
 TEST_F(GlSceneFiles, AVolumeMustMeetAnOrgan) {
     const auto scene = [](const std::string& lines) {
         return head() + kTail + "[look.cut_volume]\nfile = \"ct.nrrd\"\n" + lines;

@@ -180,6 +180,26 @@ TEST_F(GlDepthMaps, ACubeIsACube) {
     EXPECT_LT(off.back(), 0.6);
 }
 
+// Both ways to a normal, of a field that is no distance.
+TEST_F(GlDepthMaps, NormalsOfTheGradientAreThoseOfTheMap) {
+    const sim::TriangleMesh mesh = ball();
+    const auto texture = DeformationTexture::bake(ballMap(MapKind::twist), glm::ivec3(48), TexelFormat::half);
+    ASSERT_TRUE(texture.ok()) << texture.error().message;
+    const DepthMaps maps = mapsOf(mesh, kCube);
+    RaycastLook gradient;
+    gradient.normals = Normals::gradient;
+    const glm::dvec3 direction(0.3, -0.4, -1);
+    const Warp warp{&*texture, {}};
+    const Shown one = show(mesh, maps.field(), direction, {}, warp),
+                other = show(mesh, maps.field(), direction, gradient, warp);
+    RaycastAgreement sum;
+    addAgreement(sum, other.probes, one.probes, 1e-9);
+    EXPECT_GT(sum.object, 700);
+    EXPECT_EQ(sum.silhouettes + sum.deep, 0) << "only normals differ";
+    EXPECT_LT(sum.medianTurn(), 3);
+    EXPECT_GT(sum.medianTurn(), 0) << "they were found in two ways";
+}
+
 /// What is cut off above y = 0, seen from above: its face at rest.
 double faceRadius(const std::vector<RaycastProbe>& probes, double& least) {
     double most = 0;

@@ -2,6 +2,7 @@
 // The light that falls on a place is not asked for: a face drawn with the volume must look as it does with a
 // volume of one value, where that value is the one of the place.
 #include "models/phantom.h"
+#include "render/depth_maps.h"
 #include "render/raycast_measures.h"
 #include "tests/gl_fixture.h"
 
@@ -41,14 +42,21 @@ protected:
         auto texture = DeformationTexture::bake(map, glm::ivec3(48), TexelFormat::half);
         ASSERT_TRUE(texture.ok());
         texture_.emplace(std::move(*texture));
+        auto maps = DepthMaps::create(*mesh, field_->grid(), {FieldKind::depthCube, 0});
+        ASSERT_TRUE(maps.ok());
+        depths_.emplace(std::move(*maps));
+        view_ = RaycastView::of(space_, glm::dvec3(-0.045), glm::dvec3(0.045), {0.2, -1, -0.4},
+                                sim::Projection::perspective, kSize, kSize);
+        take(RayField::of(*field_));
+    }
+    /// From now on this is the ball.
+    void take(const RayField& field) {
         Warp warp{&*texture_, {}};
         warp.mapping.objectFromLocal[3] = glm::dvec4(0, 0.03, 0, 1);
-        auto caster = Raycaster::create(space_, *field_);
+        auto caster = Raycaster::create(space_, field);
         ASSERT_TRUE(caster.ok());
         caster->setWarp(warp);
         caster_.emplace(std::move(*caster));
-        view_ = RaycastView::of(space_, glm::dvec3(-0.045), glm::dvec3(0.045), {0.2, -1, -0.4},
-                                sim::Projection::perspective, kSize, kSize);
         auto probes = caster_->probe(view_.frame, {}, kSize, kSize);
         ASSERT_TRUE(probes.ok()) << probes.error().message;
         probes_ = std::move(*probes);
@@ -56,6 +64,7 @@ protected:
     void TearDown() override {
         caster_.reset();
         texture_.reset();
+        depths_.reset();
         field_.reset();
         GlTest::TearDown();
     }
@@ -107,7 +116,10 @@ protected:
     }
 
     sim::Lattice space_ = objectSpace(0.003);
+    void labelsHaveTheirColours();
+
     std::optional<DistanceVolume> field_;
+    std::optional<DepthMaps> depths_;
     std::optional<DeformationTexture> texture_;
     std::optional<Raycaster> caster_;
     RaycastView view_;
@@ -155,7 +167,7 @@ TEST_F(GlRaycastVolume, GreyValuesAreThoseOfTheirPlacesUnderTheWindow) {
     EXPECT_EQ(wrong, 0) << "of " << faces;
 }
 
-TEST_F(GlRaycastVolume, LabelsHaveTheirColoursAndOthersTheFlesh) {
+void GlRaycastVolume::labelsHaveTheirColours() {
     VoxelValues in = voxels([](const glm::dvec3&) { return 0; });
     for (std::size_t i = 0; i < in.values.size(); ++i)
         in.values[i] = i % 11 < 5 ? 1 : i % 11 < 8 ? 7 : 2; // by x
@@ -229,6 +241,15 @@ TEST_F(GlRaycastVolume, ColoursAreThoseOfTheirPlaces) {
     const auto loud = CutVolume::colours(bad);
     ASSERT_FALSE(loud.ok());
     EXPECT_NE(loud.error().message.find("(1, 1, 0)"), std::string::npos) << loud.error().message;
+}
+
+TEST_F(GlRaycastVolume, LabelsHaveTheirColoursAndOthersTheFlesh) {
+    labelsHaveTheirColours();
+}
+
+TEST_F(GlRaycastVolume, LabelsHaveThemOnFacesOfDepthMapsToo) {
+    take(depths_->field());
+    labelsHaveTheirColours();
 }
 
 TEST_F(GlRaycastVolume, SaysWhetherItMeetsAndRefusesWhatIsNoVolume) {

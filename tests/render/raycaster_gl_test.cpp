@@ -1,5 +1,6 @@
 // The deformation shader: what is known in closed form, and its twin in double with dense samples.
 #include "models/phantom.h"
+#include "render/depth_maps.h"
 #include "render/picture_target.h"
 #include "render/raycast_measures.h"
 #include "render/raycast_twin.h"
@@ -154,12 +155,10 @@ std::vector<double> linearRed(Raycaster& caster, const RaycastView& view, bool a
 }
 
 // What a pixel at the edge should show is the mean of many smaller ones.
-TEST_F(GlRaycaster, ARayASampleSmoothsTheEdges) {
+void aRayASampleSmoothsTheEdges(const sim::TriangleMesh& mesh, const RayField& field) {
     constexpr int kFine = 8, kSmall = 40;
-    const sim::TriangleMesh mesh = ball();
-    const DistanceVolume volume = volumeOf(mesh, 40);
     const sim::Lattice space = objectSpace(0.004);
-    auto caster = Raycaster::create(space, volume);
+    auto caster = Raycaster::create(space, field);
     ASSERT_TRUE(caster.ok());
     const auto view = [&](int size) {
         return RaycastView::of(space, mesh.lowest(), mesh.highest(), {0.2, -0.3, -1},
@@ -189,6 +188,20 @@ TEST_F(GlRaycaster, ARayASampleSmoothsTheEdges) {
         }
     EXPECT_GT(edges, 80);
     EXPECT_LT(offSmooth, 0.5 * offPlain) << "over " << edges << " pixels";
+}
+
+TEST_F(GlRaycaster, ARayASampleSmoothsTheEdges) {
+    const sim::TriangleMesh mesh = ball();
+    const DistanceVolume volume = volumeOf(mesh, 40);
+    aRayASampleSmoothsTheEdges(mesh, RayField::of(volume));
+}
+
+TEST_F(GlRaycaster, ARayASampleSmoothsTheEdgesOfDepthMaps) {
+    const sim::TriangleMesh mesh = ball();
+    const auto maps = DepthMaps::create(mesh, VolumeGrid::around(mesh.lowest(), mesh.highest(), 40, 3),
+                                        {FieldKind::depthCube, 0});
+    ASSERT_TRUE(maps.ok()) << maps.error().message;
+    aRayASampleSmoothsTheEdges(mesh, maps->field());
 }
 
 struct Case {

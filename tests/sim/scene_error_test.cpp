@@ -34,6 +34,11 @@ std::vector<BadScene> badScenes() {
                "name = \"gall\"\n[look]\nshow = \"implicit\"\n[deformation]\nkind = \"sphere\"\norgans = " +
                names + "\nat = [\"0 m\", \"0 m\", \"0 m\"]\n";
     };
+    const auto byVertices = [](const std::string& lines, const std::string& more = "") {
+        return kMinimal + "[look]\nshow = \"implicit\"\n[[deformation]]\nat = [\"0 m\", \"0 m\", \"0 m\"]\n" +
+               "size = [\"1 m\", \"1 m\", \"1 m\"]\nby = \"vertices\"\n" + lines + "\n" + more;
+    };
+    const std::string twist = "kind = \"twist\"\nangle = \"30 deg\"";
     std::string nineOrgans;
     for (int i = 0; i < 9; ++i)
         nineOrgans += kOrgan + "name = \"" + std::to_string(i) + "\"\n";
@@ -86,6 +91,21 @@ std::vector<BadScene> badScenes() {
          kMinimal + "[look]\nshow = \"implicit\"\ninterior = \"hollow\"\n[look.cut_volume]\nfile = "
                     "\"ball.ply\"\n",
          "9:8", "hollow"},
+        {"VerticesCannotCut", byVertices("kind = \"sphere\"\nradius = \"1 cm\""), "10:6", "leave this kind"},
+        {"VerticesCannotBeWound", byVertices(twist + "\nwound = \"1 cm\""), "13:9", "has no effect"},
+        {"VerticesHaveNoTexels", byVertices(twist + "\ntexels = [8, 8, 8]"), "13:10", "has no effect"},
+        {"VerticesBeforePixels",
+         byVertices(twist, "[[deformation]]\nat = [\"0 m\", \"0 m\", \"0 m\"]\nkind = \"sphere\"\nradius = "
+                           "\"1 cm\"\nsize = [\"1 m\", \"1 m\", \"1 m\"]\n"),
+         "15:8", "put it before"},
+        {"VerticesInStages",
+         kMinimal + "[look]\nshow = \"implicit\"\nstage = \"box\"\n" +
+             byVertices(twist).substr((kMinimal + "[look]\nshow = \"implicit\"\n").size()),
+         "7:9", "leaves its box"},
+        {"UnknownBy", byVertices(twist + "\nby = \"cells\""), "13:", ""},
+        {"ProxyOfNothing", kMinimal + "[look]\nshow = \"implicit\"\nproxy_cells = 8\n", "7:15",
+         "has no effect"},
+        {"ProxyOfOneCell", kMinimal + "[look]\nshow = \"implicit\"\nproxy_cells = 1\n", "7:15", ""},
         {"DeformationOfNoOrgan", ofOrgans("[\"livr\"]"), "14:10", "did you mean 'liver'"},
         {"DeformationOfOneTwice", ofOrgans("[\"liver\", \"liver\"]"), "14:10", "twice"},
         {"DeformationOfNone", ofOrgans("[]"), "14:10", "is empty"},
