@@ -222,46 +222,14 @@ TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const 
     return basisAlong(sharedNormal(rest, point, bound.correctedShare), point.corners[1] - point.corners[0]);
 }
 
-VertexBinding bindVertex(const ControlNodes& nodes, const glm::uvec3& triangle, const glm::dvec3& weights,
-                         const glm::dvec3& place, const glm::dvec3& normal) {
-    const int first = diagonalStart(nodes, triangle);
-    VertexBinding bound{};
-    glm::dvec3 p[3];
-    for (int i = 0; i < 3; ++i) {
-        const int corner = (first + i) % 3;
-        bound.nodes[i] = triangle[corner];
-        bound.weights[i] = float(std::round(weights[corner] * SRS_WEIGHT_STEPS) / SRS_WEIGHT_STEPS);
-        p[i] = nodes.rest[triangle[corner]];
-    }
-    const glm::dvec3 w = exactWeights(bound.weights);
-    bound.weights.z = float(w.z);
-    bound.normalShares = glm::vec3(1);
-    const TriangleBasis basis = basisAlong(triangleNormal(p[0], p[1], p[2]), p[1] - p[0]);
-    bound.offset = glm::vec3(inBasis(basis, place - (w.x * p[0] + w.y * p[1] + w.z * p[2])));
-    bound.normal = glm::vec3(inBasis(basis, normal));
-    return bound;
-}
-
-SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<VertexCopy>& copies,
-                          const sim::Lattice& lattice) {
+SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<std::uint32_t>& copies) {
     SurfaceBinding all = binding;
-    const bool frames = binding.mapping == Mapping::nodeFrames,
-               asTheyDo = binding.mapping == Mapping::normalOffset || binding.mapping == Mapping::trilinear;
-    for (const VertexCopy& copy : copies) {
-        VertexBinding bound = copy.binding && !asTheyDo ? *copy.binding : binding.vertices[copy.vertex];
-        if (copy.binding && frames) { // its offset and normal in the lattice's axes
-            const glm::dvec3 p1 = lattice.restPosition(bound.nodes.x),
-                             p2 = lattice.restPosition(bound.nodes.y);
-            const TriangleBasis basis =
-                basisAlong(triangleNormal(p1, p2, lattice.restPosition(bound.nodes.z)), p2 - p1);
-            bound.offset = glm::vec3(fromBasis(basis, glm::dvec3(bound.offset)));
-            bound.normal = glm::vec3(fromBasis(basis, glm::dvec3(bound.normal)));
-        }
-        all.vertices.push_back(bound);
+    for (const std::uint32_t vertex : copies) {
+        all.vertices.push_back(binding.vertices[vertex]);
         if (!all.alongNormal.empty())
-            all.alongNormal.push_back(binding.alongNormal[copy.vertex]);
+            all.alongNormal.push_back(binding.alongNormal[vertex]);
         if (!all.cells.vertices.empty())
-            all.cells.vertices.push_back(binding.cells.vertices[copy.vertex]);
+            all.cells.vertices.push_back(binding.cells.vertices[vertex]);
     }
     return all;
 }

@@ -17,7 +17,6 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace serosa::render {
@@ -76,18 +75,8 @@ std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const s
 TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const sim::Lattice& lattice,
                        const RestNormals& rest);
 
-/// A vertex over another triangle of the boundary, in its constant basis, so that it returns at rest. \param
-/// weights of the triangle's corners. \param place lattice units. \param normal unit
-VertexBinding bindVertex(const ControlNodes& nodes, const glm::uvec3& triangle, const glm::dvec3& weights,
-                         const glm::dvec3& place, const glm::dvec3& normal);
-/// The same binding after its vertices with more of them: copies of vertices, which ride as they do or as
-/// bindVertex says (in normal-offset and trilinear: always as they do).
-struct VertexCopy {
-    std::uint32_t vertex = 0;
-    std::optional<VertexBinding> binding;
-};
-SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<VertexCopy>& copies,
-                          const sim::Lattice& lattice);
+/// The same binding after its vertices with more of them: copies of these vertices, bound as they are.
+SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<std::uint32_t>& copies);
 
 /// What the vertex stage does, on the CPU in double (the twin of shaders/mapping.glsl, for tests): vertex
 /// positions in lattice units from node positions (lattice units) and packed node normals.

@@ -54,10 +54,6 @@ bool isMapped(SurfaceStage stage) {
 
 } // namespace
 
-bool readsSideNodes(SurfaceStage stage) {
-    return isMapped(stage) && stage != SurfaceStage::nodeFrames;
-}
-
 SurfaceStage stageOf(sim::Mapping mapping) {
     switch (mapping) {
     case sim::Mapping::oneToOne:
@@ -260,14 +256,16 @@ void SurfacePasses::setNodes(gpu::Program& program, const sim::StateTextures& st
     program.texture("t_positions", state.positions());
     if (stage == SurfaceStage::inCells)
         program.texture("t_cells", cells_);
-    if (sideNodes_ && readsSideNodes(stage))
+    if (mask_ && isMapped(stage))
         program.texture("t_above", sideNodes_->above()).texture("t_below", sideNodes_->below());
+    if (mask_ && isMapped(stage) && stage != SurfaceStage::inCells)
+        program.texture("t_carried", carried_);
     if (stage == SurfaceStage::nodeFrames)
         program.texture("t_frames", frames_->frames());
 }
 
 void SurfacePasses::follow(const sim::StateTextures& state, SurfaceStage stage) {
-    if (sideNodes_ && !copies_.empty() && readsSideNodes(stage)) // copies alone read them
+    if (mask_ && !copies_.empty() && isMapped(stage)) // copies alone read them
         sideNodes_->update(state, *mask_);
     if (stage == SurfaceStage::nodeFrames)
         frames_->run(state.positions());

@@ -32,8 +32,6 @@ enum class SurfaceStage { undeformed, nodes, constant, corrected, chosen, alongN
 
 /// The stage that draws a mapping.
 SurfaceStage stageOf(sim::Mapping mapping);
-/// Do copies along a cut find their nodes where their side has them (shaders/side_node.glsl)?
-bool readsSideNodes(SurfaceStage stage);
 
 inline constexpr glm::vec3 kFleshColour{0.342F, 0.048F, 0.037F}; // linear
 inline constexpr glm::vec3 kCoreColour{0.020F, 0.022F, 0.025F};  // linear: behind the lattice's lines
@@ -156,6 +154,13 @@ private:
     void createStatic(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
     void createStaticRest(const sim::Lattice& lattice, const sim::TriangleMesh& metres);
     void setRest(SurfaceStage stage, const std::vector<RestVertex>& vertices);
+    /// The cells of vertices that ride in them beside cuts.
+    void createCarried(const CutSurface& cut, const std::vector<float>& copyShares,
+                       const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                       const sim::TextureLayout& layout);
+    /// \param of 1 + place in `cells`, or 0, a vertex of the buffers
+    void setCarried(const std::vector<std::uint32_t>& of, const CellBinding& cells,
+                    const std::vector<float>& shares, const sim::TextureLayout& layout);
     void createNodes(const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout);
     /// All programs once more, after what defines() says has changed.
     Status recompile();
@@ -193,6 +198,7 @@ private:
     std::map<SurfaceStage, Geometry> geometry_;
     std::vector<glm::u8vec4> colours_;       // one a mesh vertex
     gpu::Texture2D cells_;                   // of stage inCells
+    gpu::Buffer carriedOf_;                  // attribute 12: 1 + its place in carried_, or 0
     std::optional<FramePass> frames_;        // of stage nodeFrames
     std::vector<Copy> copies_;               // in the buffers after the surface's vertices
     std::vector<double> copyAway_;           // CutVertex::away of each
@@ -228,7 +234,8 @@ private:
     gpu::Texture2D none_; // one texel, where there is no map of shadows or occlusion
     RestBox restBox_;
     std::optional<CutMask> mask_;
-    std::optional<SideNodes> sideNodes_; // where there is a mask and a stage that reads them
+    std::optional<SideNodes> sideNodes_; // where there is a mask
+    gpu::Texture2D carried_;             // of vertices that ride in cells (shaders/mapping_carried.glsl)
     std::optional<StageBox> box_;
     glm::dvec3 origin_{0}; // m: of lattice units,
     double unit_ = 1;      // and their size

@@ -3,6 +3,7 @@
 #include "gpu/gl.h"
 #include "render/basis_choice.h"
 #include "render/surface_passes.h"
+#include "shaders/mapping_constants.h"
 #include "shaders/shared_constants.h"
 
 #include <algorithm>
@@ -14,12 +15,10 @@ namespace serosa::render {
 Status SurfacePasses::openMask(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
     SEROSA_ASSIGN(CutMask mask, CutMask::create(lattice, layout));
     mask_.emplace(std::move(mask));
-    const std::vector<SurfaceStage> stages = mappedStages();
-    if (std::any_of(stages.begin(), stages.end(), readsSideNodes)) {
-        SEROSA_ASSIGN(SideNodes nodes, SideNodes::create(lattice, layout));
-        sideNodes_.emplace(std::move(nodes));
-    }
-    anyConstant_ = true; // vertices along cuts ride in the constant basis
+    SEROSA_ASSIGN(SideNodes nodes, SideNodes::create(lattice, layout));
+    sideNodes_.emplace(std::move(nodes));
+    setCarried(std::vector<std::uint32_t>(vertexCount()), {}, {}, layout);
+    anyConstant_ = true; // vertices of cut nodes ride in the constant basis
     return recompile();
 }
 
@@ -49,18 +48,19 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
     // A copy for each side, and along seams of the texture for each of its coordinates.
     copies_.clear();
     copyAway_.clear();
-    std::vector<VertexCopy> bound;
+    std::vector<std::uint32_t> copied;
+    std::vector<float> shares;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
     for (std::size_t f = 0; f < cut.copies.size(); ++f)
         for (int i = 0; i < 3; ++i) {
-            const std::uint32_t copied = cut.copies[f][i], of = drawn_.faces[cut.copied[f]][i];
-            const auto [found, fresh] =
-                known.try_emplace({copied, of}, std::uint32_t(drawn + copies_.size()));
+            const std::uint32_t copy = cut.copies[f][i], of = drawn_.faces[cut.copied[f]][i];
+            const auto [found, fresh] = known.try_emplace({copy, of}, std::uint32_t(drawn + copies_.size()));
             if (fresh) {
-                const CutVertex& vertex = cut.vertices[copied];
+                const CutVertex& vertex = cut.vertices[copy];
                 copies_.push_back({vertex.vertex, vertex.side, of});
                 copyAway_.push_back(vertex.away);
-                bound.push_back({vertex.vertex, vertex.binding});
+                copied.push_back(vertex.vertex);
+                shares.push_back(vertex.share);
             }
             indices.push_back(found->second);
         }
@@ -70,13 +70,15 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
     if (usesRest())
         rest.emplace(lattice);
     for (const SurfaceBinding& binding : bindings) {
-        const SurfaceBinding all = withCopies(binding, bound, lattice);
+        const SurfaceBinding all = withCopies(binding, copied);
         SEROSA_TRY(createMapped(all, layout));
         if (rest)
             createRest(all, lattice, metres, *rest);
         anyConstant =
             anyConstant || (binding.mapping == sim::Mapping::curvature && binding.constantVertices > 0);
     }
+    if (mask_)
+        createCarried(cut, shares, lattice, metres, layout);
     if (mask_ && !geometry_.at(SurfaceStage::undeformed).rest)
         createStaticRest(lattice, metres);
     if (!drawn_.textures.empty() && textures_) {
@@ -93,6 +95,39 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
     if (!std::exchange(anyConstant_, anyConstant) && anyConstant) // the first to need it
         return recompile();
     return {};
+}
+
+void SurfacePasses::createCarried(const CutSurface& cut, const std::vector<float>& copyShares,
+                                  const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                                  const sim::TextureLayout& layout) {
+    std::vector<std::uint32_t> carriedOf(vertexCount());
+    std::vector<glm::dvec3> places;
+    std::vector<float> shares;
+    const auto add = [&](std::size_t vertex, float share, std::uint32_t& at) {
+        if (share <= 0)
+            return;
+        places.push_back(lattice.toLattice(metres.positions[vertex]));
+        shares.push_back(share);
+        at = std::uint32_t(places.size());
+    };
+    const std::size_t drawn = newIndex_.size();
+    for (std::size_t i = 0; i < drawn && !cut.shares.empty(); ++i)
+        add(drawn_.origin[i], cut.shares[drawn_.origin[i]], carriedOf[newIndex_[i]]);
+    for (std::size_t i = 0; i < copies_.size(); ++i)
+        add(copies_[i].vertex, copyShares[i], carriedOf[drawn + i]);
+    setCarried(carriedOf, bindToCells(lattice, places), shares, layout);
+}
+
+void SurfacePasses::setCarried(const std::vector<std::uint32_t>& of, const CellBinding& cells,
+                               const std::vector<float>& shares, const sim::TextureLayout& layout) {
+    const std::vector<glm::uvec4> texels = carriedTexels(cells, shares, layout);
+    carried_ = gpu::Texture2D("vertices in cells", GL_RGBA32UI, SRS_TABLE_WIDTH,
+                              int(texels.size() / SRS_TABLE_WIDTH));
+    carried_.upload(texels.data());
+    carriedOf_ = gpu::Buffer("which vertices ride in cells", std::span<const std::uint32_t>(of));
+    for (const SurfaceStage stage : mappedStages())
+        geometry_.at(stage).array.integerAttribute(12, carriedOf_, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t),
+                                                   0);
 }
 
 gpu::Buffer SurfacePasses::shownAfter(const gpu::Buffer& shown, const std::vector<Copy>& copiesBefore) const {

@@ -7,7 +7,9 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace serosa::render {
 
@@ -16,6 +18,21 @@ namespace {
 std::uint32_t texel(const sim::TextureLayout& layout, std::uint32_t node) {
     const glm::uvec2& at = layout.texelOfNode[node];
     return at.y << 16 | at.x;
+}
+
+/// Of the eight corners of a cell.
+void addCorners(const std::array<std::uint32_t, 8>& corners, const sim::TextureLayout& layout,
+                std::vector<glm::uvec4>& texels) {
+    for (std::size_t half = 0; half < 8; half += 4)
+        texels.emplace_back(texel(layout, corners[half]), texel(layout, corners[half + 1]),
+                            texel(layout, corners[half + 2]), texel(layout, corners[half + 3]));
+}
+
+/// Filled up to whole rows of a table, one at least.
+std::vector<glm::uvec4> inRows(std::vector<glm::uvec4> texels) {
+    const std::size_t rows = (texels.size() + SRS_TABLE_WIDTH - 1) / SRS_TABLE_WIDTH;
+    texels.resize(std::max<std::size_t>(rows, 1) * SRS_TABLE_WIDTH);
+    return texels;
 }
 
 } // namespace
@@ -104,12 +121,19 @@ std::vector<CellVertex> cellVertices(const SurfaceBinding& binding, const std::v
 std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureLayout& layout) {
     std::vector<glm::uvec4> texels;
     for (const auto& corners : cells.corners)
-        for (std::size_t half = 0; half < 8; half += 4)
-            texels.emplace_back(texel(layout, corners[half]), texel(layout, corners[half + 1]),
-                                texel(layout, corners[half + 2]), texel(layout, corners[half + 3]));
-    const std::size_t rows = (texels.size() + SRS_TABLE_WIDTH - 1) / SRS_TABLE_WIDTH;
-    texels.resize(std::max<std::size_t>(rows, 1) * SRS_TABLE_WIDTH);
-    return texels;
+        addCorners(corners, layout, texels);
+    return inRows(std::move(texels));
+}
+
+std::vector<glm::uvec4> carriedTexels(const CellBinding& cells, const std::vector<float>& shares,
+                                      const sim::TextureLayout& layout) {
+    std::vector<glm::uvec4> texels;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const CellBinding::Vertex& vertex = cells.vertices[i];
+        addCorners(cells.corners[vertex.cell], layout, texels);
+        texels.push_back(glm::floatBitsToUint(glm::vec4(vertex.at, shares[i])));
+    }
+    return inRows(std::move(texels));
 }
 
 std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,

@@ -93,6 +93,11 @@ std::vector<CellVertex> cellVertices(const SurfaceBinding& binding, const std::v
 /// Node texels of the cells' corners, two RGBA32UI texels a cell, in rows of SRS_TABLE_WIDTH that are whole.
 std::vector<glm::uvec4> cellTexels(const CellBinding& cells, const sim::TextureLayout& layout);
 
+/// The same of vertices that ride in cells beside cuts, three texels each: the corners, then where the vertex
+/// lies in the cell, and its share (shaders/mapping_carried.glsl).
+std::vector<glm::uvec4> carriedTexels(const CellBinding& cells, const std::vector<float>& shares,
+                                      const sim::TextureLayout& layout);
+
 std::vector<StaticVertex> staticVertices(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                                          const std::vector<glm::u8vec4>& colours);
 

@@ -30,7 +30,7 @@ mat3 matrixOf(vec4 q) {
                 p.z + r.y, p.y - r.x, 1.0 - s.x - s.y);
 }
 
-Mapped mapVertex() {
+Mapped mapOwn() {
     vec4 p1 = fetchNode(a_texels.x), p2 = fetchNode(a_texels.y), p3 = fetchNode(a_texels.z);
     vec3 w = vec3(a_weights, 1.0 - a_weights.x - a_weights.y);
 

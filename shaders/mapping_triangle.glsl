@@ -3,8 +3,6 @@
 // One formula for all bases (render/triangle_basis.h): a normal N and the triangle's first edge give B = N x T and
 // T = B x N. N is the triangle's (eq. 6), the weighted mean of the nodes' (eq. 8), or a share of both; normalized, which
 // eq. 6 and 8 leave out. Along N alone (3.5, SRS_MAP_NORMAL) the basis turns the rest normal only.
-#include "side_node.glsl"
-
 layout(location = 0) in uvec3 a_texels; // y << 16 | x
 layout(location = 1) in vec2 a_weights; // w1, w2
 #if MAPPING == SRS_MAP_NORMAL
@@ -16,8 +14,8 @@ layout(location = 2) in vec3 a_offset; // in the basis, lattice units
 layout(location = 11) in vec4 a_shares; // xyz: how much each node's normal counts; w: of the corrected basis
 #endif
 
-Mapped mapVertex() {
-    vec4 p1 = followedNode(a_texels.x), p2 = followedNode(a_texels.y), p3 = followedNode(a_texels.z);
+Mapped mapOwn() {
+    vec4 p1 = fetchNode(a_texels.x), p2 = fetchNode(a_texels.y), p3 = fetchNode(a_texels.z);
     vec3 edge = p2.xyz - p1.xyz;
     vec2 w = a_weights;
 #if MAPPING != SRS_MAP_CORRECTED

@@ -1,5 +1,5 @@
-// Where a vertex finds a node that it follows. Beside a cut: where the vertex's side has it (render/side_nodes.h), so that a
-// triangle or cell which the cut goes through is whole on each side.
+// Where a vertex finds a corner of its cell. Beside a cut: where the vertex's side has it (render/side_nodes.h), so that a cell
+// which the cut goes through is whole on each side.
 #ifdef SURFACE_CUT
 #include "surface_rest.glsl"
 uniform sampler2D t_above, t_below;

@@ -25,7 +25,6 @@ uniform float u_blendStep;   // lattice units that it may move the vertex a fram
 
 #ifdef SURFACE_REST // render/surface_vertices.h: RestVertex
 #include "surface_rest.glsl"
-layout(location = 8) in uvec2 a_frame; // rest normal in lattice axes; a tangent to it, in the basis; packed
 uniform vec3 u_restFrom, u_restExtent; // of the box, lattice units
 
 out vec3 v_rest;       // lattice units, where the cut mask and the textures are read
@@ -88,7 +87,7 @@ void main() {
 #ifdef SURFACE_STATIC
     vec3 t = frame;
 #else
-    vec3 t = mapped.turn * frame;
+    vec3 t = carryTangent(mapped, frame, restT);
 #endif
     vec3 n = normalize(v_normal);
     t = normalize(t - n * dot(n, t));

@@ -1,6 +1,7 @@
 // The rest state that cuts and textures ask of a vertex (render/surface_vertices.h: RestVertex).
 #include "shared_constants.h"
 layout(location = 7) in vec4 a_rest; // position at rest in its box; w: RestVertex::side, in 1/65535
+layout(location = 8) in uvec2 a_frame; // rest normal in lattice axes; a tangent to it, in the basis; packed
 
 /// RestVertex::side. Until a cut is shown the attribute is not given, and (0, 0, 0, 1) as GL has it: no side.
 int restSide() {
