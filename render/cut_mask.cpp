@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace serosa::render {
 
@@ -101,6 +102,7 @@ void CutMask::clear() {
     sides_.upload(0, 4 * nodeCount_, far.data());
     lastNormal_ = glm::vec3(0);
     facing_ = 1;
+    layers_.clear();
 }
 
 void CutMask::setStroke(gpu::Program& program, const sim::StateTextures& state,
@@ -114,7 +116,10 @@ void CutMask::setStroke(gpu::Program& program, const sim::StateTextures& state,
 }
 
 void CutMask::paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke) {
-    if (stroke.kind == sim::StrokeKind::tear)
+    const bool tears = stroke.kind == sim::StrokeKind::tear;
+    if (!stroke.continues)
+        layers_.push_back(tears ? std::string() : saveLayer());
+    if (tears)
         return;
     const sim::LatticeStroke local = sim::toLattice(stroke, lattice);
     const bool blade = local.kind == sim::StrokeKind::blade;
@@ -165,7 +170,53 @@ void CutMask::bind(gpu::Program& program) const {
     program.set("u_maskFrom", origin_ - 1.0F).set("u_maskScale", float(voxels_) / glm::vec3(volume_.size()));
 }
 
+bool CutMask::undo() {
+    if (layers_.empty())
+        return false;
+    const std::string layer = std::move(layers_.back());
+    layers_.pop_back();
+    sim::ByteReader in(layer, 0);
+    if (const std::optional<Layer> before = layer.empty() ? std::nullopt : readLayer(in))
+        apply(*before);
+    return true;
+}
+
 std::string CutMask::save() const {
+    sim::ByteWriter out;
+    out.raw(saveLayer());
+    out.u64(layers_.size());
+    for (const std::string& layer : layers_)
+        out.text(layer);
+    return out.take();
+}
+
+bool CutMask::restore(std::string_view bytes) {
+    sim::ByteReader in(bytes, 0);
+    const std::optional<Layer> now = readLayer(in);
+    if (!now)
+        return false;
+    // Earlier versions ended here: nothing to be undone.
+    std::vector<std::string> layers(in.left() > 0 ? in.count(in.u64(), 4) : 0);
+    for (std::string& layer : layers) {
+        layer = in.text();
+        sim::ByteReader inLayer(layer, 0);
+        if (!layer.empty() && (!readLayer(inLayer) || inLayer.left() > 0))
+            return false;
+    }
+    if (in.failed() || in.left() > 0)
+        return false;
+    apply(*now);
+    layers_ = std::move(layers);
+    return true;
+}
+
+void CutMask::apply(const Layer& layer) {
+    volume_.upload(layer.texels);
+    sides_.upload(0, 4 * nodeCount_, layer.sides.data());
+    lastNormal_ = layer.lastNormal;
+}
+
+std::string CutMask::saveLayer() const {
     const std::vector<std::uint32_t> texels = volume_.download();
     sim::ByteWriter out;
     out.u32(std::uint32_t(voxels_));
@@ -189,29 +240,27 @@ std::string CutMask::save() const {
     return out.take();
 }
 
-bool CutMask::restore(std::string_view bytes) {
-    sim::ByteReader in(bytes, 0);
-    std::vector<std::uint32_t> texels(volume_.bytes() / 4, SRS_MASK_KEPT);
-    if (in.u32() != std::uint32_t(voxels_) || in.u64() != texels.size())
-        return false;
-    for (std::size_t at = 0; at < texels.size() && !in.failed();) {
+std::optional<CutMask::Layer> CutMask::readLayer(sim::ByteReader& in) const {
+    Layer layer;
+    layer.texels.assign(volume_.bytes() / 4, SRS_MASK_KEPT);
+    if (in.u32() != std::uint32_t(voxels_) || in.u64() != layer.texels.size())
+        return {};
+    for (std::size_t at = 0; at < layer.texels.size() && !in.failed();) {
         const std::uint64_t kept = in.u64(), other = in.u64();
-        if (kept > texels.size() - at || other > texels.size() - at - kept || kept + other == 0)
-            return false;
+        if (kept > layer.texels.size() - at || other > layer.texels.size() - at - kept || kept + other == 0)
+            return {};
         at += kept;
         for (const std::size_t end = at + other; at < end; ++at)
-            texels[at] = in.u32();
+            layer.texels[at] = in.u32();
     }
-    std::vector<float> sides(nodeCount_);
-    for (float& side : sides)
+    layer.sides.resize(nodeCount_);
+    for (float& side : layer.sides)
         side = in.f32();
     for (int axis = 0; axis < 3; ++axis)
-        lastNormal_[axis] = in.f32();
-    if (in.failed() || in.left() > 0)
-        return false;
-    volume_.upload(texels);
-    sides_.upload(0, 4 * nodeCount_, sides.data());
-    return true;
+        layer.lastNormal[axis] = in.f32();
+    if (in.failed())
+        return {};
+    return layer;
 }
 
 } // namespace serosa::render

@@ -15,10 +15,12 @@
 #include "gpu/program.h"
 #include "gpu/sampled_texture.h"
 #include "sim/blade.h"
+#include "sim/byte_stream.h"
 #include "sim/lattice.h"
 #include "sim/state_textures.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,9 +35,14 @@ public:
     /// texels.
     static Result<CutMask> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
 
-    /// Paints a stroke, with the organ as `state` has it: before or after the lattice is cut.
+    /// Paints a stroke, with the organ as `state` has it: before or after the lattice is cut. What was there
+    /// before a stroke's first part is kept for undo() (reads the volume back, once a stroke). A tear paints
+    /// nothing, and counts.
     void paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke);
-    /// Nothing is cut any more.
+    /// Takes back what the last stroke (with the parts that continue it) painted, as sim::CutList::undo does
+    /// of springs. False: none is known.
+    bool undo();
+    /// Nothing is cut any more, nor to be undone.
     void clear();
 
     /// Signed distance of each node to the nearest cut, spacings; SRS_MASK_FAR where none came near. Reads
@@ -51,12 +58,21 @@ public:
     std::size_t bytes() const { return volume_.bytes(); }
     const gpu::Texture3D& volume() const { return volume_; }
 
-    /// All of it, for snapshots (reads back, stalls), and set again. False: not of this mask.
+    /// All of it, with what undo() needs, for snapshots (reads back, stalls), and set again. False: not of
+    /// this mask.
     std::string save() const;
     bool restore(std::string_view bytes);
 
 private:
     CutMask() = default;
+    struct Layer { // what undo() sets again
+        std::vector<std::uint32_t> texels;
+        std::vector<float> sides;
+        glm::vec3 lastNormal{0};
+    };
+    std::string saveLayer() const;
+    std::optional<Layer> readLayer(sim::ByteReader& in) const;
+    void apply(const Layer& layer);
     void setStroke(gpu::Program& program, const sim::StateTextures& state, const sim::LatticeStroke& stroke);
 
     int voxels_ = 0;
@@ -67,6 +83,8 @@ private:
     std::size_t cellCount_ = 0, nodeCount_ = 0;
     glm::vec3 lastNormal_{0}; // of the stroke's part before, as its sides are counted
     float facing_ = 1;
+    std::vector<std::string>
+        layers_; // before each stroke, oldest first; empty: a tear, which changed nothing
 };
 
 } // namespace serosa::render

@@ -331,11 +331,16 @@ Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& latti
 Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
                                  const sim::StateTextures& state, const sim::Stroke& stroke) {
     SurfacePasses& surface = impl_->organs.at(organ).surface;
-    if (stroke.kind == sim::StrokeKind::tear)
+    if (stroke.kind == sim::StrokeKind::tear && !surface.mask())
         return {};
     SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
     surface.mask()->paint(state, lattice, stroke);
     return {};
+}
+
+bool SurfaceRenderer::undoCut(std::size_t organ) {
+    CutMask* mask = impl_->organs.at(organ).surface.mask();
+    return mask && mask->undo();
 }
 
 const CutMask* SurfaceRenderer::cutMask(std::size_t organ) const {

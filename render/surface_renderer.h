@@ -105,6 +105,9 @@ public:
     /// of CutMask::create.
     Status paintCut(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
                     const sim::Stroke& stroke);
+    /// Takes the last stroke out of an organ's mask, where sim::CutList::undo took it back; showCuts shows
+    /// it. False: no stroke is known in the mask.
+    bool undoCut(std::size_t organ);
     /// What strokes left of an organ, for other passes; null where no mask was made.
     const CutMask* cutMask(std::size_t organ) const;
     /// The mask of an organ for snapshots, empty where none was made, and set again; empty: nothing is cut.

@@ -222,6 +222,51 @@ TEST_F(GlCutMask, SavedBytesGiveTheSamePicture) {
             renderer_->restoreCuts(0, lattice_, *state_, std::string_view(bytes).substr(0, size)).ok());
 }
 
+// What CutList::undo gives back of springs, the mask gives back of what is drawn; a snapshot keeps what that
+// needs.
+TEST_F(GlCutMask, UndoneStrokeByStrokeItIsDrawnAsBefore) {
+    const auto rest = [](const glm::dvec3& q) { return q; };
+    view_.look.colour = sim::SurfaceColour::tissue;
+    ASSERT_TRUE(renderer_->prepareCuts(0, lattice_, state_->layout()).ok());
+    std::vector<Image> images;
+    std::vector<std::vector<std::uint32_t>> connections;
+    std::vector<sim::Stroke> all;
+    const auto shown = [&] {
+        EXPECT_TRUE(renderer_
+                        ->showCuts(0, lattice_, mesh_, binding_, *state_, connections_,
+                                   sim::Mapping::curvature, false)
+                        .ok());
+        return draw();
+    };
+    sim::Stroke tear;
+    tear.kind = sim::StrokeKind::tear;
+    cut({}, true, rest);
+    for (const std::vector<sim::Stroke>& stroke : {strokes(kPlane, 3), {tear}, strokes(-2.2, 2)}) {
+        images.push_back(shown());
+        connections.push_back(connections_);
+        for (const sim::Stroke& part : stroke) {
+            ASSERT_TRUE(renderer_->paintCut(0, lattice_, *state_, part).ok());
+            if (part.kind == sim::StrokeKind::blade)
+                sim::cutConnections(lattice_, deformedState(lattice_, rest).positions,
+                                    toLattice(part, lattice_), connections_);
+        }
+    }
+    EXPECT_NE(shown().rgb, images[2].rgb);
+    EXPECT_NE(images[2].rgb, images[0].rgb);
+    const std::string bytes = renderer_->saveCuts(0);
+    for (const bool fromSnapshot : {false, true}) {
+        if (fromSnapshot) {
+            ASSERT_TRUE(renderer_->restoreCuts(0, lattice_, *state_, bytes).ok());
+        }
+        for (const std::size_t i : {2U, 1U, 0U}) {
+            EXPECT_TRUE(renderer_->undoCut(0));
+            connections_ = connections[i];
+            EXPECT_EQ(shown().rgb, images[i].rgb) << i;
+        }
+        EXPECT_FALSE(renderer_->undoCut(0));
+    }
+}
+
 // A blade that turns round on its way still counts its sides the same; a ball burns a hole.
 TEST_F(GlCutMask, SidesStayThroughASawingStrokeAndABallBurnsAHole) {
     auto mask = CutMask::create(lattice_, state_->layout());
