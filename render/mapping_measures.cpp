@@ -1,5 +1,6 @@
 #include "render/mapping_measures.h"
 
+#include "render/basis_choice.h"
 #include "render/mapped_stage.h"
 #include "render/triangle_basis.h"
 #include "render/triangle_choice.h"
@@ -205,6 +206,24 @@ MappingErrors measureMappingTwin(const sim::Lattice& lattice, const sim::Triangl
     return errors;
 }
 
+namespace {
+
+/// A step across the plane between two cells that an edge of the boundary lies in; 0: it lies in none.
+glm::dvec3 besideCells(const sim::Lattice& lattice, std::uint32_t a, std::uint32_t b) {
+    constexpr double kStep = 1e-7; // lattice units
+    for (int axis = 0; axis < 3; ++axis) {
+        const int at = lattice.nodes[a][axis];
+        if (at == lattice.nodes[b][axis] && at > 0 && at + 1 < lattice.nodeDims[axis]) {
+            glm::dvec3 step(0);
+            step[axis] = kStep;
+            return step;
+        }
+    }
+    return glm::dvec3(0);
+}
+
+} // namespace
+
 Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormals normals) {
     constexpr std::uint8_t kFull = 255;
     constexpr double kRadius = 3; // spacings
@@ -224,7 +243,8 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
             triangleNormal(lattice.restPosition(n.x), lattice.restPosition(n.y), lattice.restPosition(n.z)));
     };
 
-    // Two vertices an edge, at the same place, bound to the triangle on either side.
+    // Two vertices an edge, at the same place, bound to the triangle on either side, or in the cell.
+    const RestNormals rest(lattice);
     sim::TriangleMesh points;
     SurfaceBinding binding;
     binding.mapping = mapping;
@@ -233,7 +253,14 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
         // point.
         const glm::dvec3 middle =
             lattice.restPosition(edge.first) / 3.0 + lattice.restPosition(edge.second) * (2 / 3.0);
-        const glm::dvec3 up = glm::normalize(normalOf(triangles.at(0)) + normalOf(triangles.at(1)));
+        glm::dvec3 up = glm::normalize(normalOf(triangles.at(0)) + normalOf(triangles.at(1))), beside(0);
+        if (mapping == sim::Mapping::normalOffset) // what goes over the edge lies on the normal there
+            up = glm::normalize(rest.normal(edge.first) / 3.0 + rest.normal(edge.second) * (2 / 3.0));
+        if (mapping == sim::Mapping::trilinear) {
+            beside = besideCells(lattice, edge.first, edge.second);
+            if (beside == glm::dvec3(0))
+                continue;
+        }
         for (const std::uint32_t t : {triangles[0], triangles[1]}) {
             VertexBinding vertex{};
             const int first = diagonalStart(control, lattice.boundary[t]);
@@ -245,7 +272,8 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
                                                                      : 0.0F;
             binding.vertices.push_back(vertex);
             binding.triangles.push_back(t);
-            points.positions.push_back(lattice.toWorld(middle + height * up));
+            points.positions.push_back(
+                lattice.toWorld(middle + height * up + (t == triangles[0] ? 1.0 : -1.0) * beside));
         }
     }
     const auto count = std::uint32_t(points.positions.size());
@@ -259,7 +287,7 @@ Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height, NodeNormal
         lattice, [&](const glm::dvec3& q) { return bend(q, centre, kRadius); }, normals));
     const std::vector<glm::dvec3> mapped = stage.positions();
     EdgeGaps gaps;
-    gaps.edges = sharing.size();
+    gaps.edges = points.positions.size() / 2;
     for (std::size_t e = 0; e < gaps.edges; ++e) {
         const double gap = glm::distance(mapped[2 * e], mapped[2 * e + 1]);
         grow(gaps.largest, gap);

@@ -56,7 +56,9 @@ struct EdgeGaps {
 
 /// Points over the middle of every edge that two boundary triangles share, `height` spacings along the mean
 /// of their normals, are bound to either triangle; the gap is the distance between the two images when the
-/// lattice of 3x3x2 nodes is bent to a radius of 3 spacings. Needs a current context.
+/// lattice of 3x3x2 nodes is bent to a radius of 3 spacings. Along the normal, points lie on eq. 8's normal
+/// over the edge instead: what is followed there goes from one triangle to the other. In cells, points on
+/// either side of the plane between two cells that the edge lies in are bound. Needs a current context.
 Result<EdgeGaps> measureBendGaps(sim::Mapping mapping, double height,
                                  NodeNormals normals = NodeNormals::current);
 

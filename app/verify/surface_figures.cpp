@@ -105,13 +105,16 @@ Status measureGaps(const VerifyOptions& options, CheckList& checks) {
         SEROSA_ASSIGN(const render::EdgeGaps constant,
                       render::measureBendGaps(Mapping::triangle, height, normals));
         checks.atLeast(of + "triangle", constant.largest, 0.05 * height, "h");
-        for (const Mapping mapping : {Mapping::curvature, Mapping::chosen, Mapping::nodeFrames}) {
+        for (const Mapping mapping : {Mapping::curvature, Mapping::chosen, Mapping::normalOffset,
+                                      Mapping::trilinear, Mapping::nodeFrames}) {
             SEROSA_ASSIGN(const render::EdgeGaps gaps, render::measureBendGaps(mapping, height, normals));
-            if (mapping == Mapping::nodeFrames)
-                checks.atMost(of + mappingWord(mapping), gaps.largest, 1e-5, "h");
-            else
+            if (mapping == Mapping::curvature || mapping == Mapping::chosen)
                 checks.atMost(of + mappingWord(mapping) + ", over constant", gaps.largest / constant.largest,
                               0.6, "1");
+            else // continuous: along the normal where eq. 8's is followed, in cells also above them
+                checks.atMost(of + mappingWord(mapping), gaps.largest, 1e-5, "h");
+            if (mapping == Mapping::trilinear)
+                checks.atLeast(of + "trilinear, edges between two cells", double(gaps.edges), 8, "1");
         }
     }
     return {};
