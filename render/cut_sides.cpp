@@ -19,18 +19,6 @@ constexpr int kTogetherSprings = 4; // between nodes of one side
 constexpr double kReach = 3;        // spacings to another triangle
 constexpr double kFacing = 0.1;     // least cosine between the normals of the old and the new one
 
-/// The node with the largest weight, of those that are joined to anything.
-std::optional<std::uint32_t> nearestNode(const VertexBinding& bound, const CutSides& sides) {
-    std::optional<std::uint32_t> best;
-    float most = 0;
-    for (int i = 0; i < 3; ++i)
-        if (!sides.isLoose(bound.nodes[i]) && (!best || bound.weights[i] > most)) {
-            best = bound.nodes[i];
-            most = bound.weights[i];
-        }
-    return best;
-}
-
 } // namespace
 
 CutSides::CutSides(const sim::Lattice& lattice, const std::vector<std::uint32_t>& connections)
@@ -87,34 +75,57 @@ bool CutSides::together(std::uint32_t a, std::uint32_t b) {
     return joined(around_, connections_, a, b);
 }
 
+bool CutSides::isHeld(const glm::uvec3& nodes) const {
+    return !isLoose(nodes.x) && !isLoose(nodes.y) && !isLoose(nodes.z) && isWhole(nodes);
+}
+
+std::optional<std::uint32_t> CutSides::nearestHeld(const VertexBinding& bound) const {
+    std::optional<std::uint32_t> best;
+    float most = 0;
+    for (int i = 0; i < 3; ++i)
+        if (!isLoose(bound.nodes[i]) && (!best || bound.weights[i] > most)) {
+            best = bound.nodes[i];
+            most = bound.weights[i];
+        }
+    return best;
+}
+
 bool CutSides::separated(std::uint32_t a, std::uint32_t b) {
     return !together(a, b) && joined(aroundBefore_, lattice_.connections, a, b);
 }
 
+WholeTriangles::WholeTriangles(const sim::Lattice& lattice, CutSides& sides)
+    : lattice_(lattice), sides_(sides), nodes_(controlNodes(lattice)) {}
+
+glm::dvec3 WholeTriangles::normalOf(std::uint32_t triangle) const {
+    const glm::uvec3& t = lattice_.boundary[triangle];
+    return glm::normalize(triangleNormal(nodes_.rest[t.x], nodes_.rest[t.y], nodes_.rest[t.z]));
+}
+
+sim::TriangleTree::Closest WholeTriangles::closest(const glm::dvec3& place, std::uint32_t before,
+                                                   std::uint32_t node) {
+    if (!tree_)
+        tree_.emplace(nodes_.rest, nodes_.triangles);
+    const glm::dvec3 facing = normalOf(before);
+    return tree_->closest(place, kReach, [&](std::uint32_t t) {
+        const glm::uvec3& corners = lattice_.boundary[t];
+        return sides_.isWhole(corners) && glm::dot(facing, normalOf(t)) >= kFacing &&
+               sides_.together(node, corners.x);
+    });
+}
+
 void followOwnSides(SurfaceBinding& binding, const sim::Lattice& lattice,
                     const std::vector<glm::dvec3>& positions, CutSides& sides) {
-    std::optional<sim::TriangleTree> tree; // where it is needed
-    const ControlNodes control = controlNodes(lattice);
-    const auto normalOf = [&](const glm::uvec3& t) {
-        return glm::normalize(triangleNormal(control.rest[t.x], control.rest[t.y], control.rest[t.z]));
-    };
+    WholeTriangles triangles(lattice, sides);
     for (std::size_t v = 0; v < positions.size(); ++v) {
         VertexBinding& bound = binding.vertices[v];
         if (!sides.isNear(bound.nodes.x) || sides.isWhole(bound.nodes))
             continue;
-        const auto nearest = nearestNode(bound, sides);
+        const auto nearest = sides.nearestHeld(bound);
         if (!nearest)
             continue;
-        if (!tree)
-            tree.emplace(control.rest, control.triangles);
-        const glm::dvec3 facing = normalOf(lattice.boundary[binding.triangles[v]]);
-        const auto closest = tree->closest(positions[v], kReach, [&](std::uint32_t t) {
-            const glm::uvec3& nodes = lattice.boundary[t];
-            return sides.isWhole(nodes) && glm::dot(facing, normalOf(nodes)) >= kFacing &&
-                   sides.together(*nearest, nodes.x);
-        });
-        if (closest)
-            followTriangle(bound, binding.triangles[v], control, closest.triangle, closest.weights);
+        if (const auto closest = triangles.closest(positions[v], binding.triangles[v], *nearest))
+            followTriangle(bound, binding.triangles[v], triangles.nodes(), closest.triangle, closest.weights);
     }
 }
 

@@ -4,9 +4,11 @@
 
 #include "render/surface_binding.h"
 #include "sim/lattice.h"
+#include "sim/triangle_tree.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace serosa::render {
@@ -27,6 +29,10 @@ public:
     /// Are two nodes joined through at most four springs that are left? Around the end of a cut, where it
     /// gapes little, its sides are.
     bool together(std::uint32_t a, std::uint32_t b);
+    /// Are all of a triangle's nodes joined to something, and no two of them parted?
+    bool isHeld(const glm::uvec3& nodes) const;
+    /// The node with the largest weight, of those that are joined to anything.
+    std::optional<std::uint32_t> nearestHeld(const VertexBinding& bound) const;
     /// Were two nodes together before the cut, and are they no longer? The corners of a face that is larger
     /// than four springs never were.
     bool separated(std::uint32_t a, std::uint32_t b);
@@ -41,6 +47,25 @@ private:
     const std::vector<std::uint32_t>& connections_;
     std::vector<bool> near_;
     Around around_, aroundBefore_;
+};
+
+/// The boundary's triangles, to follow another one on the same side. Built when first asked.
+class WholeTriangles {
+public:
+    /// Both outlive this.
+    WholeTriangles(const sim::Lattice& lattice, CutSides& sides);
+    /// The closest whole triangle within three spacings that faces as `before` does and goes with a node;
+    /// kNone where there is none. \param place lattice units
+    sim::TriangleTree::Closest closest(const glm::dvec3& place, std::uint32_t before, std::uint32_t node);
+    const ControlNodes& nodes() const { return nodes_; }
+
+private:
+    glm::dvec3 normalOf(std::uint32_t triangle) const;
+
+    const sim::Lattice& lattice_;
+    CutSides& sides_;
+    ControlNodes nodes_;
+    std::optional<sim::TriangleTree> tree_;
 };
 
 /// Vertices whose triangle is cut through follow from now on the closest whole triangle that faces the same

@@ -12,7 +12,9 @@
 #include "shaders/mapping_constants.h"
 #include "sim/triangle_tree.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace serosa::render {
@@ -222,12 +224,40 @@ TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const 
     return basisAlong(sharedNormal(rest, point, bound.correctedShare), point.corners[1] - point.corners[0]);
 }
 
-SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<std::uint32_t>& copies) {
+SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<VertexCopy>& copies,
+                          const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                          const std::vector<std::uint32_t>& connections) {
     SurfaceBinding all = binding;
-    for (const std::uint32_t vertex : copies) {
-        all.vertices.push_back(binding.vertices[vertex]);
-        if (!all.alongNormal.empty())
-            all.alongNormal.push_back(binding.alongNormal[vertex]);
+    const bool elsewhere = binding.mapping != Mapping::trilinear &&
+                           std::any_of(copies.begin(), copies.end(),
+                                       [](const VertexCopy& copy) { return copy.follows.has_value(); });
+    std::optional<ControlNodes> nodes;
+    std::optional<RestNormals> rest;
+    std::vector<glm::dvec3> normals;
+    if (elsewhere) {
+        nodes.emplace(controlNodes(lattice));
+        rest.emplace(lattice, connections);
+        normals = metres.vertexNormals();
+    }
+    for (const VertexCopy& copy : copies) {
+        const std::uint32_t vertex = copy.vertex;
+        VertexBinding bound = binding.vertices[vertex];
+        std::uint32_t triangle = binding.triangles[vertex];
+        std::optional<NormalOffset> along;
+        if (!binding.alongNormal.empty())
+            along = binding.alongNormal[vertex];
+        if (elsewhere && copy.follows) {
+            followTriangle(bound, triangle, *nodes, copy.follows->triangle, copy.follows->weights);
+            const BoundPoint point = boundPoint(bound, *nodes, nodes->toNodes(metres.positions[vertex]));
+            if (along)
+                along = expressAlongNormal(bound, *rest, point, normals[vertex]);
+            else
+                express(bound, *rest, point, normals[vertex], binding.mapping);
+        }
+        all.vertices.push_back(bound);
+        all.triangles.push_back(triangle);
+        if (along)
+            all.alongNormal.push_back(*along);
         if (!all.cells.vertices.empty())
             all.cells.vertices.push_back(binding.cells.vertices[vertex]);
     }

@@ -17,6 +17,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace serosa::render {
@@ -75,8 +76,20 @@ std::vector<SurfaceBinding> withBothBases(const SurfaceBinding& binding, const s
 TriangleBasis restAxes(const SurfaceBinding& binding, std::size_t vertex, const sim::Lattice& lattice,
                        const RestNormals& rest);
 
-/// The same binding after its vertices with more of them: copies of these vertices, bound as they are.
-SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<std::uint32_t>& copies);
+/// A triangle of the boundary, and where on it (weights of its corners).
+struct FollowedTriangle {
+    std::uint32_t triangle = 0;
+    glm::dvec3 weights{1, 0, 0};
+};
+/// The same binding after its vertices with more of them: copies of vertices, bound as they are, or to
+/// another triangle (in cells: always as they are).
+struct VertexCopy {
+    std::uint32_t vertex = 0;
+    std::optional<FollowedTriangle> follows;
+};
+SurfaceBinding withCopies(const SurfaceBinding& binding, const std::vector<VertexCopy>& copies,
+                          const sim::Lattice& lattice, const sim::TriangleMesh& metres,
+                          const std::vector<std::uint32_t>& connections);
 
 /// What the vertex stage does, on the CPU in double (the twin of shaders/mapping.glsl, for tests): vertex
 /// positions in lattice units from node positions (lattice units) and packed node normals.

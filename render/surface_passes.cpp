@@ -348,7 +348,7 @@ void SurfacePasses::draw(const sim::StateTextures& state, const Frame& frame, Su
     const bool sectioned = frame.section != glm::vec4(0);
     if (sectioned)
         glEnable(GL_CLIP_DISTANCE0);
-    if (sectioned || mask_)
+    if (sectioned || mask_ || !copies_.empty())
         glDisable(GL_CULL_FACE); // inner sides show as cut tissue
     const std::size_t level = stage == SurfaceStage::nodes ? 0 : levelFor(frame);
     lastLevel_ = level;

@@ -103,12 +103,13 @@ public:
     /// nodes; nothing fades any more. \param bindings of all mappings that it draws. Errors: of the shaders.
     Status show(const CutSurface& cut, const sim::Lattice& lattice, const sim::TriangleMesh& metres,
                 const std::vector<SurfaceBinding>& bindings, const std::vector<glm::uvec3>& boundary,
-                const sim::TextureLayout& layout);
+                const sim::TextureLayout& layout, const std::vector<std::uint32_t>& connections = {});
     /// Vertices of the buffers beyond those of the surface: copies along cuts.
     struct Copy {
         std::uint32_t vertex = 0; // of the mesh
         int side = 0;
-        std::uint32_t drawn = 0; // the vertex of the surface that it is one of
+        std::uint32_t drawn = 0;   // the vertex of the surface that it is one of
+        std::int64_t follows = -1; // a triangle of the boundary, instead of its own
         auto operator<=>(const Copy&) const = default;
     };
     const std::vector<Copy>& copies() const { return copies_; }

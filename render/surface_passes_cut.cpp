@@ -39,7 +39,8 @@ Status SurfacePasses::openBox(const StageBox& box, const sim::Lattice& lattice,
 
 Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
                            const sim::TriangleMesh& metres, const std::vector<SurfaceBinding>& bindings,
-                           const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout) {
+                           const std::vector<glm::uvec3>& boundary, const sim::TextureLayout& layout,
+                           const std::vector<std::uint32_t>& connections) {
     const std::size_t drawn = drawn_.origin.size();
     std::vector<std::uint32_t> indices;
     for (std::size_t f = 0; f < drawn_.faces.size(); ++f)
@@ -48,7 +49,7 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
     // A copy for each side, and along seams of the texture for each of its coordinates.
     copies_.clear();
     copyAway_.clear();
-    std::vector<std::uint32_t> copied;
+    std::vector<VertexCopy> copied;
     std::vector<float> shares;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
     for (std::size_t f = 0; f < cut.copies.size(); ++f)
@@ -57,9 +58,10 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
             const auto [found, fresh] = known.try_emplace({copy, of}, std::uint32_t(drawn + copies_.size()));
             if (fresh) {
                 const CutVertex& vertex = cut.vertices[copy];
-                copies_.push_back({vertex.vertex, vertex.side, of});
+                copies_.push_back({vertex.vertex, vertex.side, of,
+                                   vertex.follows ? std::int64_t(vertex.follows->triangle) : -1});
                 copyAway_.push_back(vertex.away);
-                copied.push_back(vertex.vertex);
+                copied.push_back({vertex.vertex, vertex.follows});
                 shares.push_back(vertex.share);
             }
             indices.push_back(found->second);
@@ -70,7 +72,7 @@ Status SurfacePasses::show(const CutSurface& cut, const sim::Lattice& lattice,
     if (usesRest())
         rest.emplace(lattice);
     for (const SurfaceBinding& binding : bindings) {
-        const SurfaceBinding all = withCopies(binding, copied);
+        const SurfaceBinding all = withCopies(binding, copied, lattice, metres, connections);
         SEROSA_TRY(createMapped(all, layout));
         if (rest)
             createRest(all, lattice, metres, *rest);

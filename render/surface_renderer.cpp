@@ -383,11 +383,11 @@ Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
     const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
     impl_->target.bind();
     if (!fades)
-        return surface.show(cut, lattice, metres, rebound, boundary, layout);
+        return surface.show(cut, lattice, metres, rebound, boundary, layout, connections);
     const SurfaceStage stage = stageOf(mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : mapping);
     const gpu::Buffer shown = surface.shown(state, stage);
     const std::vector<SurfacePasses::Copy> copies = surface.copies();
-    SEROSA_TRY(surface.show(cut, lattice, metres, rebound, boundary, layout));
+    SEROSA_TRY(surface.show(cut, lattice, metres, rebound, boundary, layout, connections));
     SEROSA_TRY(surface.prepareBlend());
     surface.startBlend(state, stage, surface.shownAfter(shown, copies), 1, glm::vec3(0),
                        float(SRS_BLEND_STEP));

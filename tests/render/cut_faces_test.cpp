@@ -1,6 +1,9 @@
 // What is drawn of an organ that was cut: nothing spans the gap, nothing else is missing.
+#include "render/basis_choice.h"
 #include "render/cut_faces.h"
+#include "render/cut_surface.h"
 #include "sim/blade.h"
+#include "sim/packed_normal.h"
 #include "sim/pieces.h"
 #include "sim/solver.h"
 #include "tests/sim/shapes.h"
@@ -170,5 +173,68 @@ TEST(CutFacesDrawn, noFaceSpansACut) {
         EXPECT_GT(edges.size(), 500u);
         for (const auto& [edge, balance] : edges)
             EXPECT_EQ(balance, 0);
+    }
+}
+
+// Springs that tore leave no sides in space: each of their faces is drawn whole for both sides of the tear,
+// and moves with it.
+TEST(CutFacesDrawn, BothSidesOfATearHaveAllOfItsFaces) {
+    const CutEllipsoid body(-0.02, 5); // all through
+    const sim::LatticeState rest = sim::restState(body.lattice);
+    constexpr double kApart = 2.5; // lattice units, each half to its own side
+    std::vector<glm::dvec3> apart = rest.positions;
+    for (glm::dvec3& p : apart)
+        p.x += body.lattice.toWorld(p).x > body.x ? kApart : -kApart;
+    for (const auto mapping : {sim::Mapping::triangle, sim::Mapping::curvature, sim::Mapping::chosen,
+                               sim::Mapping::normalOffset, sim::Mapping::nodeFrames}) {
+        SCOPED_TRACE(int(mapping));
+        const render::SurfaceBinding whole =
+            render::expressBinding(body.binding, body.lattice, body.mesh, mapping);
+        const render::SurfaceBinding rebound =
+            render::expressBinding(whole, body.lattice, body.mesh, mapping, body.connections);
+        const render::CutSurface surface =
+            render::cutSurface(body.lattice, body.mesh, whole, rebound, body.connections, {});
+        std::vector<render::VertexCopy> copies;
+        for (const render::CutVertex& vertex : surface.vertices)
+            copies.push_back({vertex.vertex, vertex.follows});
+        const render::SurfaceBinding all =
+            render::withCopies(rebound, copies, body.lattice, body.mesh, body.connections);
+        const std::size_t first = rebound.vertices.size();
+        const render::RestNormals normals(body.lattice, body.connections); // as the solver writes them
+        std::vector<std::uint32_t> packed;
+        for (std::uint32_t node = 0; node < body.lattice.nodeCount(); ++node)
+            packed.push_back(sim::packNormal(glm::vec3(normals.normal(node))));
+        const auto still = render::mapSurface(all, rest.positions, packed);
+        const auto moved = render::mapSurface(all, apart, packed);
+        std::map<std::uint32_t, std::pair<int, int>>
+            sidesOf; // of a torn face: copies to the left, to the right
+        for (std::size_t c = 0; c < surface.copies.size(); ++c) {
+            int left = 0, right = 0;
+            for (int i = 0; i < 3; ++i) {
+                const std::size_t v = first + surface.copies[c][i];
+                const glm::dvec3 place =
+                    body.lattice.toLattice(body.mesh.positions[copies[surface.copies[c][i]].vertex]);
+                EXPECT_LT(glm::distance(still[v], place), 1e-4);
+                left += glm::distance(moved[v], place - glm::dvec3(kApart, 0, 0)) < 1e-3;
+                right += glm::distance(moved[v], place + glm::dvec3(kApart, 0, 0)) < 1e-3;
+            }
+            EXPECT_TRUE(left == 3 || right == 3) << left << " " << right;
+            sidesOf[surface.copied[c]].first += left == 3;
+            sidesOf[surface.copied[c]].second += right == 3;
+        }
+        std::size_t torn = 0, both = 0, none = 0;
+        for (std::uint32_t f = 0; f < surface.whole.size(); ++f) {
+            if (surface.whole[f])
+                continue;
+            ++torn;
+            const auto [left, right] = sidesOf[f];
+            EXPECT_LE(left, 1);
+            EXPECT_LE(right, 1);
+            both += left == 1 && right == 1;
+            none += left + right == 0;
+        }
+        EXPECT_GT(torn, 50U);
+        EXPECT_EQ(none, 0U);
+        EXPECT_GT(double(both), 0.9 * double(torn));
     }
 }
