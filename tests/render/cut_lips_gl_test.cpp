@@ -160,9 +160,6 @@ TEST_F(GlCutLips, LieInTheCellsOfTheirSideWhateverTheMapping) {
             }
             RecordProperty((inCells ? "from_curl_" : "from_curl_alone_") + std::to_string(int(mapping)),
                            std::to_string(fromCurl));
-            if (std::getenv("LIPS"))
-                std::printf("%d mapping %d: %d lips, from cells %.4f, normals %.4f, from curl %.4f\n",
-                            inCells, int(mapping), lips, fromCells, turned, fromCurl);
         }
     }
 }
