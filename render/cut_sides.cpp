@@ -7,6 +7,7 @@
 #include "sim/triangle_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -79,6 +80,13 @@ bool CutSides::isHeld(const glm::uvec3& nodes) const {
     return !isLoose(nodes.x) && !isLoose(nodes.y) && !isLoose(nodes.z) && isWhole(nodes);
 }
 
+bool CutSides::isFirm(const glm::uvec3& nodes) const {
+    for (int i = 0; i < 3; ++i)
+        if (2 * std::popcount(connections_[nodes[i]]) < std::popcount(lattice_.connections[nodes[i]]))
+            return false;
+    return true;
+}
+
 std::optional<std::uint32_t> CutSides::nearestHeld(const VertexBinding& bound) const {
     std::optional<std::uint32_t> best;
     float most = 0;
@@ -103,14 +111,14 @@ glm::dvec3 WholeTriangles::normalOf(std::uint32_t triangle) const {
 }
 
 sim::TriangleTree::Closest WholeTriangles::closest(const glm::dvec3& place, std::uint32_t before,
-                                                   std::uint32_t node) {
+                                                   std::uint32_t node, bool firm) {
     if (!tree_)
         tree_.emplace(nodes_.rest, nodes_.triangles);
     const glm::dvec3 facing = normalOf(before);
     return tree_->closest(place, kReach, [&](std::uint32_t t) {
         const glm::uvec3& corners = lattice_.boundary[t];
-        return sides_.isWhole(corners) && glm::dot(facing, normalOf(t)) >= kFacing &&
-               sides_.together(node, corners.x);
+        return sides_.isWhole(corners) && (!firm || sides_.isFirm(corners)) &&
+               glm::dot(facing, normalOf(t)) >= kFacing && sides_.together(node, corners.x);
     });
 }
 

@@ -31,6 +31,8 @@ public:
     bool together(std::uint32_t a, std::uint32_t b);
     /// Are all of a triangle's nodes joined to something, and no two of them parted?
     bool isHeld(const glm::uvec3& nodes) const;
+    /// Has each of a triangle's nodes half of its springs left? Others hang on strands.
+    bool isFirm(const glm::uvec3& nodes) const;
     /// The node with the largest weight, of those that are joined to anything.
     std::optional<std::uint32_t> nearestHeld(const VertexBinding& bound) const;
     /// Were two nodes together before the cut, and are they no longer? The corners of a face that is larger
@@ -55,8 +57,9 @@ public:
     /// Both outlive this.
     WholeTriangles(const sim::Lattice& lattice, CutSides& sides);
     /// The closest whole triangle within three spacings that faces as `before` does and goes with a node;
-    /// kNone where there is none. \param place lattice units
-    sim::TriangleTree::Closest closest(const glm::dvec3& place, std::uint32_t before, std::uint32_t node);
+    /// kNone where there is none. With `firm`, of firm nodes alone. \param place lattice units
+    sim::TriangleTree::Closest closest(const glm::dvec3& place, std::uint32_t before, std::uint32_t node,
+                                       bool firm = false);
     const ControlNodes& nodes() const { return nodes_; }
 
 private:

@@ -76,11 +76,12 @@ void copyAlongTears(CutSurface& surface, const sim::Lattice& lattice, const sim:
         const auto nearest = held.nearestHeld(own);
         CutVertex vertex{v, 0, {}, 0, 0};
         std::int64_t triangle = -1;
-        if (!nearest || !held.isHeld(own.nodes) || !held.together(*nearest, node)) {
+        if (!nearest || !held.isHeld(own.nodes) || !held.isFirm(own.nodes) ||
+            !held.together(*nearest, node)) {
             const auto [at, fresh] = found.try_emplace({v, node});
             if (fresh)
-                at->second =
-                    triangles.closest(lattice.toLattice(metres.positions[v]), binding.triangles[v], node);
+                at->second = triangles.closest(lattice.toLattice(metres.positions[v]), binding.triangles[v],
+                                               node, true);
             if (!at->second)
                 return {};
             triangle = at->second.triangle;
