@@ -117,7 +117,7 @@ void CutMask::setStroke(gpu::Program& program, const sim::StateTextures& state,
 
 void CutMask::paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke) {
     const bool tears = stroke.kind == sim::StrokeKind::tear;
-    if (!stroke.continues)
+    if (keeps_ && !stroke.continues)
         layers_.push_back(tears ? std::string() : saveLayer());
     if (tears)
         return;

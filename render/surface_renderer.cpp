@@ -57,6 +57,7 @@ struct SurfaceRenderer::Impl {
     PictureTarget target;
     std::optional<LampShadow> shadow;         // made when first asked for
     std::optional<ScreenOcclusion> occlusion; // of the target's size; the same
+    bool keepsCuts = false;                   // for undoCut
 
     glm::dvec3 lowest() const; // of all organs at rest, m
     glm::dvec3 highest() const;
@@ -334,8 +335,13 @@ Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
     if (stroke.kind == sim::StrokeKind::tear && !surface.mask())
         return {};
     SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
+    surface.mask()->keepForUndo(impl_->keepsCuts);
     surface.mask()->paint(state, lattice, stroke);
     return {};
+}
+
+void SurfaceRenderer::keepCutsForUndo(bool on) {
+    impl_->keepsCuts = on;
 }
 
 bool SurfaceRenderer::undoCut(std::size_t organ) {

@@ -105,8 +105,11 @@ public:
     /// of CutMask::create.
     Status paintCut(std::size_t organ, const sim::Lattice& lattice, const sim::StateTextures& state,
                     const sim::Stroke& stroke);
+    /// Whether undoCut can take back the strokes that begin from now on; at first it cannot. Costs a stall a
+    /// stroke (CutMask::keepForUndo).
+    void keepCutsForUndo(bool on);
     /// Takes the last stroke out of an organ's mask, where sim::CutList::undo took it back; showCuts shows
-    /// it. False: no stroke is known in the mask.
+    /// it. False: no stroke was kept.
     bool undoCut(std::size_t organ);
     /// What strokes left of an organ, for other passes; null where no mask was made.
     const CutMask* cutMask(std::size_t organ) const;

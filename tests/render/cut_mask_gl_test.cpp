@@ -241,6 +241,7 @@ TEST_F(GlCutMask, UndoneStrokeByStrokeItIsDrawnAsBefore) {
     sim::Stroke tear;
     tear.kind = sim::StrokeKind::tear;
     cut({}, true, rest);
+    renderer_->keepCutsForUndo(true);
     for (const std::vector<sim::Stroke>& stroke : {strokes(kPlane, 3), {tear}, strokes(-2.2, 2)}) {
         images.push_back(shown());
         connections.push_back(connections_);
