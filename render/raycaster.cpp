@@ -220,8 +220,10 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         const glm::dmat4 objectFromLocal = objectFromWorld * mapping_->objectFromLocal;
         program.set("u_objectFromLocal", glm::mat4(objectFromLocal));
         program.set("u_localFromObject", glm::mat4(glm::inverse(objectFromLocal)));
-        program.set("u_cylinder", float(mapping_->cylinderRadius)).set("u_half", half_);
-        program.set("u_scale", float(scale_)).set("u_bias", float(bias_));
+        program.set("u_cylinder", float(mapping_->cylinderRadius))
+            .set("u_half", half_)
+            .set("u_perSize", 0.5F / half_);
+        program.set("u_scale", float(scale_)).set("u_offset", float(-scale_ * bias_));
         program.texture("t_displacement", displacement_).texture("t_skip", skipTexture_);
         glm::vec3 inner = half_; // a wound box meets itself
         if (wound)

@@ -16,7 +16,7 @@ uniform float u_shareStretch; // its largest stretch over its least
 /// Of the nearest texel: its bounds hold half a texel around it, too.
 vec3 skipTexel(vec3 q) {
     ivec3 size = textureSize(t_skip, 0);
-    ivec3 at = clamp(ivec3(vec3(size) * (0.5 * q / u_half + 0.5)), ivec3(0), size - 1);
+    ivec3 at = clamp(ivec3(vec3(size) * (q * u_perSize + 0.5)), ivec3(0), size - 1);
     return texelFetch(t_skip, at, 0).xyz;
 }
 

@@ -5,9 +5,9 @@
 #include "raycast_lattice.glsl"
 #endif
 #ifdef RAYCAST_WARP
-uniform sampler3D t_displacement; // D / u_scale, A
-uniform float u_scale, u_bias;    // D = u_scale (texel - u_bias)
-uniform vec3 u_half;              // of the box, texture space
+uniform sampler3D t_displacement; // D, as it is stored; A
+uniform float u_scale, u_offset;  // D = u_scale texel + u_offset
+uniform vec3 u_half, u_perSize;   // of the box, texture space: half of its size; 1 over its size
 uniform mat4 u_localFromObject, u_objectFromLocal;
 #ifdef RAYCAST_WOUND
 uniform float u_cylinder;         // radius that the box is wound around
@@ -50,8 +50,8 @@ mat3 mappingJacobian(vec3 q) {
 }
 
 vec4 readDisplacement(vec3 q) {
-    vec4 texel = textureLod(t_displacement, 0.5 * q / u_half + 0.5, 0.0);
-    return vec4(u_scale * (texel.xyz - u_bias), texel.w);
+    vec4 texel = textureLod(t_displacement, q * u_perSize + 0.5, 0.0);
+    return vec4(u_scale * texel.xyz + u_offset, texel.w);
 }
 
 bool inBox(vec3 q) {
