@@ -65,12 +65,14 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     lowest_ = grid.lowest;
     highest_ = grid.lowest + grid.step * glm::dvec3(grid.size - 1);
     mapping_.reset();
+    masked_ = false;
     beforeFromNow_ = glm::dmat4(1);
     coarse_.reset();
     if (!warp)
         return;
     const DeformationTexture& texture = *warp->texture;
     mapping_ = warp->mapping;
+    masked_ = texture.cuts();
     const bool bytes = texture.format() == TexelFormat::unorm8;
     scale_ = texture.scale() * (bytes ? 255.0 / 127 : 1);
     bias_ = bytes ? 128.0 / 255 : 0;
@@ -141,6 +143,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_STAGE", "1"});
     if (variant.coloured)
         defines.push_back({"RAYCAST_COLOURED", "1"});
+    if (variant.masked)
+        defines.push_back({"RAYCAST_MASKED", "1"});
     if (variant.wound)
         defines.push_back({"RAYCAST_WOUND", "1"});
     if (variant.normals == Normals::gradient)
@@ -183,12 +187,12 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         2 / (frame.size.y * glm::length(glm::vec3(rows[1]))) * rows[3]; // its width at a place
     const bool coarse = look.coarse > 0 && mayBeCoarse(look, pixel);
     const int volume = cutVolume_ && !probe ? cutVolume_->kind() : 0;
-    SEROSA_ASSIGN(
-        gpu::Program* const made,
-        program({look.solid, look.search, look.normals, field_.kind, int(skipField) + 2 * int(look.skipCut),
-                 volume, lattice_ != nullptr, lattice_ && lattice_->isCut(), mapping_.has_value(), wound,
-                 stage_.has_value(), field_.colours != nullptr && !probe, look.antialias && !probe, coarse,
-                 coarse_.has_value(), probe}));
+    SEROSA_ASSIGN(gpu::Program* const made,
+                  program({look.solid, look.search, look.normals, field_.kind,
+                           int(skipField) + 2 * int(look.skipCut && masked_), volume, lattice_ != nullptr,
+                           lattice_ && lattice_->isCut(), mapping_.has_value(), masked_, wound,
+                           stage_.has_value(), field_.colours != nullptr && !probe, look.antialias && !probe,
+                           coarse, coarse_.has_value(), probe}));
     gpu::Program& program = *made;
     const VolumeGrid& grid = field_.grid;
     const auto toObject = [this](const glm::dvec3& world) { return (world - origin_) / unit_; };

@@ -112,7 +112,7 @@ private:
         FieldKind field;
         int skip;   // 1 by the field, 2 by the cut
         int volume; // CutVolume::kind(), 0: none
-        bool lattice, cut, warped, wound, staged, coloured, samples, coarse, proxy, probe;
+        bool lattice, cut, warped, masked, wound, staged, coloured, samples, coarse, proxy, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
@@ -131,6 +131,7 @@ private:
     gpu::Texture3D displacement_, skipTexture_;
     double skipReach_ = 0, maskSlope_ = 1;                      // m, 1/m
     std::shared_ptr<const std::vector<std::uint8_t>> uploaded_; // what the textures were made from,
+    bool masked_ = false;                                       // the texture cuts something away
     double woundAround_ = 0;                                    // and of which radius
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};

@@ -88,7 +88,10 @@ Warped warp(vec3 shown) {
 #else
     vec3 rest = shown + mat3(u_objectFromLocal) * d.xyz; // M(q + D), M(q) known
 #endif
-    return Warped(rest, min(d.w, kept), tissue, cut, inside, q);
+#ifdef RAYCAST_MASKED
+    kept = min(d.w, kept);
+#endif
+    return Warped(rest, kept, tissue, cut, inside, q);
 #else
     return Warped(shown, kept, tissue, cut, false, shown);
 #endif
