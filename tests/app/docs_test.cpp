@@ -176,7 +176,7 @@ protected:
     ~Scenes() override { fs::remove_all(folder_); }
 
     void expectRead(const std::string& text, const std::string& from) {
-        for (const std::string& model : allMatches(text, std::regex("\nmodel = \"([^\"]+)\""))) {
+        for (const std::string& model : allMatches(text, std::regex("\n(?:model|file) = \"([^\"]+)\""))) {
             const fs::path file = (folder_ / "scenes" / model).lexically_normal();
             fs::create_directories(file.parent_path());
             std::ofstream{file};
