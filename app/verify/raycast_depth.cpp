@@ -12,8 +12,8 @@ namespace serosa::app {
 namespace {
 
 constexpr std::size_t kFaces = 20'000;
-constexpr int kSamples = 96;
-constexpr double kLength = 10; // m: longer than any ray
+constexpr int kSamples = 96, kSize = 160; // of the fields, of the picture: the one as fine as the other
+constexpr double kLength = 10;            // m: longer than any ray
 
 struct FieldCase {
     const char* name;
@@ -29,10 +29,11 @@ constexpr FieldCase kFields[] = {{"distance field", render::FieldKind::distance,
 } // namespace
 
 Status verifyRaycastDepth(const VerifyOptions& options, CheckList& checks) {
+    const int finer = options.full ? 2 : 1;
     SEROSA_ASSIGN(sim::TriangleMesh mesh, models::phantomInMetres("heart", kFaces));
-    SEROSA_ASSIGN(const RaycastModel heart, RaycastModel::of(std::move(mesh), kSamples, 0));
+    SEROSA_ASSIGN(const RaycastModel heart, RaycastModel::of(std::move(mesh), finer * kSamples, 0));
     const sim::TriangleTree tree(heart.mesh.positions, heart.mesh.faces);
-    const int size = options.full ? 320 : 160;
+    const int size = finer * kSize;
     for (const FieldCase& tested : kFields) {
         std::optional<render::DepthMaps> maps;
         render::RayField field = render::RayField::of(heart.field);
