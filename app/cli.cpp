@@ -203,13 +203,10 @@ void addPhantom(CLI::App& app, Choice& choice) {
     command->callback([given, surface, volume, &choice] {
         if (surface->empty() && volume->empty())
             throw CLI::RequiredError("--output or --volume");
-        choice.action = [given]() -> Result<int> {
-            if (!given->volume.empty())
-                SEROSA_TRY(
-                    writePhantomVolume(given->name, given->voxel, given->volume, given->force, std::cout));
-            if (given->file.empty())
-                return int(exitOk);
-            return writePhantom(given->name, given->faces, given->file, given->force, std::cout);
+        choice.action = [given] {
+            return writePhantom(
+                {given->name, given->faces, given->file, given->volume, given->voxel, given->force},
+                std::cout);
         };
     });
 }

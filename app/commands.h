@@ -36,12 +36,15 @@ Result<int> printSceneKeys(std::ostream& out);
 Result<int> writeSceneDeformation(const std::filesystem::path& scene, std::size_t number,
                                   const std::filesystem::path& file, bool force, std::ostream& out);
 
-/// `serosa phantom`: writes a generated organ, in millimetres. An existing file is refused without `force`.
-/// \param faces 0: the phantom's default.
-Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
-                         bool force, std::ostream& out);
-/// What cuts through a phantom show (models/solid.h), .nrrd or .mha. \param voxel mm
-Status writePhantomVolume(const std::string& name, double voxel, const std::filesystem::path& file,
-                          bool force, std::ostream& out);
+struct PhantomRequest {
+    std::string name;
+    std::size_t faces = 0; // of the surface; 0: the phantom's default
+    std::filesystem::path file,
+        volume;         // of the surface; of what cuts show (models/solid.h), .nrrd or .mha; empty: none
+    double voxel = 1;   // mm, of the volume
+    bool force = false; // replaces existing files, which are refused else
+};
+/// `serosa phantom`: writes a generated organ, in millimetres: nothing where one of the files cannot be.
+Result<int> writePhantom(const PhantomRequest& request, std::ostream& out);
 
 } // namespace serosa::app

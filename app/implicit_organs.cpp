@@ -68,10 +68,10 @@ Status ImplicitOrgans::readCutVolume(const sim::CutVolume& wanted) {
     worldFromPlace[3] = glm::dvec4(wanted.at, 1);
     const render::VoxelValues voxels{read.size, worldFromPlace * read.placeFromVoxel, std::move(read.values)};
     const bool colours = read.components == 3;
-    if (colours && !wanted.labels.empty())
+    if (colours && (wanted.windowed || !wanted.labels.empty()))
         return Error{wanted.file.string() +
-                     ": has colours, three numbers a voxel, and look.cut_volume.label gives "
-                     "colours of labels: remove the labels, or give a map of them"};
+                     ": has colours, three numbers a voxel, on which the level, width and "
+                     "labels of look.cut_volume have no effect: remove them"};
     Result<render::CutVolume> made = colours ? render::CutVolume::colours(voxels)
                                      : wanted.labels.empty()
                                          ? render::CutVolume::grey(voxels, wanted.level, wanted.width)

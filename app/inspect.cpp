@@ -130,9 +130,21 @@ Result<int> repairModel(const std::filesystem::path& from, const std::filesystem
     return int(exitOk);
 }
 
-Result<int> writePhantom(const std::string& name, std::size_t faces, const std::filesystem::path& file,
-                         bool force, std::ostream& out) {
-    SEROSA_TRY(checkTarget(file, name + ".ply", force));
+Result<int> writePhantom(const PhantomRequest& request, std::ostream& out) {
+    const std::string& name = request.name;
+    const std::filesystem::path &file = request.file, &volumeFile = request.volume;
+    if (!file.empty())
+        SEROSA_TRY(checkTarget(file, name + ".ply", request.force));
+    if (!volumeFile.empty()) {
+        SEROSA_TRY(checkTarget(volumeFile, name + ".nrrd", request.force));
+        SEROSA_ASSIGN(const models::ColourVolume volume, models::makePhantomVolume(name, request.voxel));
+        SEROSA_TRY(writeColourVolume(volume, volumeFile));
+        out << volumeFile.string() << ": " << volume.size.x << " x " << volume.size.y << " x "
+            << volume.size.z << " voxels of " << shortNumber(volume.voxel) << " mm, colours\n";
+    }
+    if (file.empty())
+        return int(exitOk);
+    std::size_t faces = request.faces;
     if (faces == 0) {
         faces = kAnyFaces;
         for (const models::PhantomInfo& info : models::phantoms())
@@ -144,16 +156,6 @@ Result<int> writePhantom(const std::string& name, std::size_t faces, const std::
     out << file.string() << ": " << grouped(mesh.positions.size()) << " vertices, "
         << grouped(mesh.faces.size()) << " faces, " << sizeText(mesh.highest() - mesh.lowest()) << " mm\n";
     return int(exitOk);
-}
-
-Status writePhantomVolume(const std::string& name, double voxel, const std::filesystem::path& file,
-                          bool force, std::ostream& out) {
-    SEROSA_TRY(checkTarget(file, name + ".nrrd", force));
-    SEROSA_ASSIGN(const models::ColourVolume volume, models::makePhantomVolume(name, voxel));
-    SEROSA_TRY(writeColourVolume(volume, file));
-    out << file.string() << ": " << volume.size.x << " x " << volume.size.y << " x " << volume.size.z
-        << " voxels of " << shortNumber(voxel) << " mm, colours\n";
-    return {};
 }
 
 } // namespace serosa::app

@@ -115,9 +115,10 @@ void CutMask::setStroke(gpu::Program& program, const sim::StateTextures& state,
     program.set("u_kind", int(stroke.kind)).set("u_size", stroke.size).set("u_facing", facing_);
 }
 
-void CutMask::paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke) {
+void CutMask::paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke,
+                    bool undoable) {
     const bool tears = stroke.kind == sim::StrokeKind::tear;
-    if (keeps_ && !stroke.continues)
+    if (undoable && !stroke.continues)
         layers_.push_back(tears ? std::string() : saveLayer());
     if (tears)
         return;

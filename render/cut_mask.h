@@ -36,13 +36,12 @@ public:
     static Result<CutMask> create(const sim::Lattice& lattice, const sim::TextureLayout& layout);
 
     /// Paints a stroke, with the organ as `state` has it: before or after the lattice is cut. A tear paints
-    /// nothing.
-    void paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke);
-    /// Whether what is there before each stroke is kept for undo() from now on; at first it is not. Reads the
-    /// volume back (stalls) when a stroke begins.
-    void keepForUndo(bool on) { keeps_ = on; }
+    /// nothing. \param undoable what was there before it is kept: reads the volume back (stalls) when a
+    /// stroke begins
+    void paint(const sim::StateTextures& state, const sim::Lattice& lattice, const sim::Stroke& stroke,
+               bool undoable = false);
     /// Takes back what the last stroke (with the parts that continue it) painted, as sim::CutList::undo does
-    /// of springs. False: none is known.
+    /// of springs. False: none was kept.
     bool undo();
     /// Nothing is cut any more, nor to be undone.
     void clear();
@@ -85,7 +84,6 @@ private:
     std::size_t cellCount_ = 0, nodeCount_ = 0;
     glm::vec3 lastNormal_{0}; // of the stroke's part before, as its sides are counted
     float facing_ = 1;
-    bool keeps_ = false;
     std::vector<std::string>
         layers_; // before each stroke, oldest first; empty: a tear, which changed nothing
 };

@@ -131,8 +131,8 @@ private:
     gpu::Texture3D displacement_, skipTexture_;
     double skipReach_ = 0, maskSlope_ = 1;                      // m, 1/m
     std::shared_ptr<const std::vector<std::uint8_t>> uploaded_; // what the textures were made from,
-    bool masked_ = false;                                       // the texture cuts something away
     double woundAround_ = 0;                                    // and of which radius
+    bool masked_ = false;                                       // the texture cuts something away
     double scale_ = 1, bias_ = 0;
     glm::vec3 half_{1};
     std::optional<TextureMapping> mapping_; // m

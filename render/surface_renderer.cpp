@@ -1,20 +1,8 @@
-#include "render/surface_renderer.h"
-
 #include "base/check.h"
 #include "gpu/gl.h"
-#include "render/cut_surface.h"
-#include "render/frame.h"
-#include "render/lamp_shadow.h"
-#include "render/lattice_overlay.h"
-#include "render/picture_target.h"
 #include "render/raycaster.h"
-#include "render/screen_occlusion.h"
-#include "render/surface_passes.h"
-#include "render/tool_renderer.h"
+#include "render/surface_renderer-inl.h"
 #include "shaders/shared_constants.h"
-#include "sim/pieces.h"
-
-#include <optional>
 
 namespace serosa::render {
 
@@ -22,52 +10,6 @@ namespace {
 
 constexpr int kShadowSide = 2048;       // texels
 constexpr double kOcclusionReach = 0.1; // of the organs' diagonal
-
-struct DrawnOrgan {
-    sim::Lattice placement; // spacing and origin only: metres from lattice units
-    SurfacePasses surface;
-    LatticeOverlay lattice;
-    glm::dvec3 lowest, highest; // at rest, m
-
-    static Result<DrawnOrgan> create(const sim::Lattice& lattice, const sim::TriangleMesh& metres,
-                                     const std::vector<SurfaceBinding>& bindings,
-                                     const sim::TextureLayout& layout, const SurfaceDetail* detail) {
-        SEROSA_ASSIGN(SurfacePasses surface,
-                      SurfacePasses::create(lattice, metres, bindings, layout, detail));
-        SEROSA_ASSIGN(LatticeOverlay overlay, LatticeOverlay::create(lattice, layout));
-        sim::Lattice placement;
-        placement.spacing = lattice.spacing;
-        placement.origin = lattice.origin;
-        return DrawnOrgan{std::move(placement), std::move(surface), std::move(overlay), metres.lowest(),
-                          metres.highest()};
-    }
-};
-
-} // namespace
-
-struct SurfaceRenderer::Impl {
-    std::vector<DrawnOrgan> organs; // at least one
-    // Of each organ its levels of detail; the one that is drawn stands in `organs`, and is none here.
-    std::vector<std::vector<std::optional<DrawnOrgan>>> levels;
-    std::vector<std::size_t> level; // that is drawn, one an organ
-    ToolRenderer tools;
-    ThreadRenderer threads;
-    gpu::Program backdrop;
-    gpu::VertexArray empty;
-    PictureTarget target;
-    std::optional<LampShadow> shadow;         // made when first asked for
-    std::optional<ScreenOcclusion> occlusion; // of the target's size; the same
-    bool keepsCuts = false;                   // for undoCut
-
-    glm::dvec3 lowest() const; // of all organs at rest, m
-    glm::dvec3 highest() const;
-    void drawDepths(const OrganStates& states, const View& view, const CameraView& camera, int width,
-                    int height);
-    void drawShadow(const OrganStates& states, const View& view, std::vector<Frame>& frames);
-    void drawOcclusion(const OrganStates& states, const View& view, std::vector<Frame>& frames);
-};
-
-namespace {
 
 Result<gpu::Program> compileBackdrop(const gpu::ShaderLibrary& library) {
     return gpu::Program::create(library, {"pass.vert", "backdrop.frag"});
@@ -321,83 +263,6 @@ Status SurfaceRenderer::openBox(std::size_t organ, const StageBox& box, const si
 
 void SurfaceRenderer::setBox(std::size_t organ, const StageBox& box) {
     impl_->organs.at(organ).surface.setBox(box);
-}
-
-Status SurfaceRenderer::prepareCuts(std::size_t organ, const sim::Lattice& lattice,
-                                    const sim::TextureLayout& layout) {
-    SurfacePasses& surface = impl_->organs.at(organ).surface;
-    return surface.mask() ? Status() : surface.openMask(lattice, layout);
-}
-
-Status SurfaceRenderer::paintCut(std::size_t organ, const sim::Lattice& lattice,
-                                 const sim::StateTextures& state, const sim::Stroke& stroke) {
-    SurfacePasses& surface = impl_->organs.at(organ).surface;
-    if (stroke.kind == sim::StrokeKind::tear && !surface.mask())
-        return {};
-    SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
-    surface.mask()->keepForUndo(impl_->keepsCuts);
-    surface.mask()->paint(state, lattice, stroke);
-    return {};
-}
-
-void SurfaceRenderer::keepCutsForUndo(bool on) {
-    impl_->keepsCuts = on;
-}
-
-bool SurfaceRenderer::undoCut(std::size_t organ) {
-    CutMask* mask = impl_->organs.at(organ).surface.mask();
-    return mask && mask->undo();
-}
-
-const CutMask* SurfaceRenderer::cutMask(std::size_t organ) const {
-    return impl_->organs.at(organ).surface.mask();
-}
-
-std::string SurfaceRenderer::saveCuts(std::size_t organ) const {
-    const CutMask* mask = impl_->organs.at(organ).surface.mask();
-    return mask ? mask->save() : std::string();
-}
-
-Status SurfaceRenderer::restoreCuts(std::size_t organ, const sim::Lattice& lattice,
-                                    const sim::StateTextures& state, std::string_view bytes) {
-    SurfacePasses& surface = impl_->organs.at(organ).surface;
-    if (bytes.empty()) {
-        if (surface.mask())
-            surface.mask()->clear();
-        return {};
-    }
-    SEROSA_TRY(prepareCuts(organ, lattice, state.layout()));
-    if (!surface.mask()->restore(bytes))
-        return Error{"the mask of what was cut is of another lattice"};
-    return {};
-}
-
-Status SurfaceRenderer::showCuts(std::size_t organ, const sim::Lattice& lattice,
-                                 const sim::TriangleMesh& metres, const SurfaceBinding& binding,
-                                 const sim::StateTextures& state,
-                                 const std::vector<std::uint32_t>& connections, sim::Mapping mapping,
-                                 bool fades) {
-    SurfacePasses& surface = impl_->organs.at(organ).surface;
-    const sim::TextureLayout& layout = state.layout();
-    std::vector<SurfaceBinding> rebound{
-        expressBinding(binding, lattice, metres, binding.mapping, connections)};
-    for (const sim::Mapping drawn : sim::kSurfaceMappings)
-        if (drawn != binding.mapping && surface.draws(stageOf(drawn))) // sides are chosen already
-            rebound.push_back(expressBinding(rebound.front(), lattice, metres, drawn, connections));
-    const std::vector<float> sides = surface.mask() ? surface.mask()->nodeSides() : std::vector<float>();
-    const CutSurface cut = cutSurface(lattice, metres, binding, rebound.front(), connections, sides);
-    const std::vector<glm::uvec3> boundary = sim::boundaryLeft(lattice, connections);
-    impl_->target.bind();
-    if (!fades)
-        return surface.show(cut, lattice, metres, rebound, boundary, layout, connections);
-    const SurfaceStage stage = stageOf(mapping == sim::Mapping::oneToOne ? sim::Mapping::curvature : mapping);
-    const gpu::Buffer shown = surface.shown(state, stage);
-    const std::vector<SurfacePasses::Copy> copies = surface.copies();
-    SEROSA_TRY(surface.show(cut, lattice, metres, rebound, boundary, layout, connections));
-    SEROSA_TRY(surface.prepareBlend());
-    surface.startBlend(state, stage, surface.shownAfter(shown, copies), 1, glm::vec3(0),
-                       float(SRS_BLEND_STEP));
-    return {};
 }
 
 void SurfaceRenderer::resize(int width, int height) {

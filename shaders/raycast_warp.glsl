@@ -1,6 +1,6 @@
-// Warping and sampling of the deformation shader (CS07 sections 3.2, 3.3, eq. 2, 5): p = M(q + D(q)), q = M^-1 p'. Twin of
+// Warping of the deformation shader (CS07 sections 3.2, 3.3, eq. 2, 5): p = M(q + D(q)), q = M^-1 p'. Twin of
 // Warp in render/deformation_texture.cpp. Object space is the lattice's unit, texture space m.
-// Signs are ours: the field is negative inside, the mask 1 where kept (CS07: positive inside, A < 0 kept).
+// The mask is 1 where kept (CS07: A < 0).
 #ifdef RAYCAST_LATTICE
 #include "raycast_lattice.glsl"
 #endif
@@ -12,16 +12,7 @@ uniform mat4 u_localFromObject, u_objectFromLocal;
 #ifdef RAYCAST_WOUND
 uniform float u_cylinder;         // radius that the box is wound around
 #endif
-#endif
-uniform vec3 u_fieldLowest;       // middle of its first voxel, object space
-uniform float u_fieldStep;        // of a voxel, object space
-#if RAYCAST_FIELD == SRS_FIELD_DISTANCE
-uniform sampler3D t_field; // signed distance, voxels
-#else
-#include "raycast_depth.glsl"
-#endif
 
-#ifdef RAYCAST_WARP
 vec3 toTexture(vec3 object) {
     vec3 local = (u_localFromObject * vec4(object, 1.0)).xyz;
 #ifdef RAYCAST_WOUND
@@ -156,45 +147,3 @@ vec3 maskGradient(vec3 shown) {
 #endif
     return transpose(first) * blade;
 }
-
-/// Of the body at rest, object space: x its field in the grid, a signed distance but for depth maps; y the way to the grid.
-vec2 fieldParts(vec3 rest) {
-    vec3 at = (rest - u_fieldLowest) / u_fieldStep;
-#if RAYCAST_FIELD == SRS_FIELD_DISTANCE
-    vec3 size = vec3(textureSize(t_field, 0)), within = clamp(at, vec3(0.0), size - 1.0);
-    float f = textureLod(t_field, (within + 0.5) / size, 0.0).x;
-#else
-    vec3 within = clamp(at, vec3(0.0), u_gridMost);
-    float f = depthField(within);
-#endif
-    return u_fieldStep * vec2(f, distance(at, within));
-}
-
-/// Beyond the volume at least the way to it.
-float field(vec3 rest) {
-    vec2 parts = fieldParts(rest);
-    return parts.x + parts.y;
-}
-
-/// Central differences over two voxels: over one, the bends of the trilinear field show as stripes.
-vec3 fieldGradient(vec3 rest) {
-#if RAYCAST_FIELD != SRS_FIELD_DISTANCE
-    vec3 along = depthGradient(clamp((rest - u_fieldLowest) / u_fieldStep, vec3(0.0), u_gridMost));
-    if (along != vec3(0.0))
-        return along;
-#endif
-    vec3 by = vec3(u_fieldStep, 0.0, 0.0);
-    return vec3(field(rest + by.xyy) - field(rest - by.xyy), field(rest + by.yxy) - field(rest - by.yxy),
-                field(rest + by.yyx) - field(rest - by.yyx)) /
-           (2.0 * u_fieldStep);
-}
-
-#ifdef RAYCAST_GRADIENT
-/// Of f'(p') = f(p), over as much as fieldGradient: six warps, where eq. 5 reads D around one place.
-vec3 deformedGradient(vec3 shown) {
-    vec3 by = vec3(u_fieldStep, 0.0, 0.0);
-    return vec3(field(warp(shown + by.xyy).rest) - field(warp(shown - by.xyy).rest),
-                field(warp(shown + by.yxy).rest) - field(warp(shown - by.yxy).rest),
-                field(warp(shown + by.yyx).rest) - field(warp(shown - by.yyx).rest));
-}
-#endif

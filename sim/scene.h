@@ -132,6 +132,7 @@ struct CutVolume {
     glm::dvec3 at{0};                               // m: where its zero lies in the world
     UpAxis upAxis = UpAxis::y;                      // that of its axes which points up
     double level = 40, width = 400;                 // window of the grey values
+    bool windowed = false;                          // one of them was given
     std::vector<std::pair<int, glm::ivec3>> labels; // value, sRGB; empty: grey values
     int line = 0;                                   // of the scene file
 };

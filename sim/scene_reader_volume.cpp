@@ -29,6 +29,7 @@ Status readCutVolume(const SceneSource& source, const SceneTable& look, const fs
     SEROSA_TRY(table.readWord("up_axis", volume.upAxis));
     SEROSA_TRY(table.read("level", volume.level));
     SEROSA_TRY(table.read("width", volume.width));
+    volume.windowed = table.has("level") || table.has("width");
     SEROSA_ASSIGN(const auto labels, table.tables("label"));
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const SceneTable label(source, path + ".label", path + ".label[" + std::to_string(i) + "]",

@@ -135,5 +135,27 @@ TEST_F(GlSceneFiles, AVolumeMustMeetAnOrgan) {
     EXPECT_NE(unmet.err.find("unmet.toml:21: look.cut_volume"), std::string::npos) << unmet.err;
 }
 
+TEST_F(GlSceneFiles, AVolumeOfColoursHasNoWindowAndNoLabels) {
+    const auto scene = [](const std::string& lines) {
+        return head() + kTail +
+               "[look.cut_volume]\nfile = \"rgb.nrrd\"\nat = [\"-60 mm\", \"0 mm\", \"0 mm\"]\n" + lines;
+    };
+    folder_.write("rgb.nrrd", "NRRD0004\ntype: uchar\ndimension: 4\nsizes: 3 2 1 1\n"
+                              "kinds: RGB-color domain domain domain\nspace: left-posterior-superior\n"
+                              "space directions: none (20,0,0) (0,20,0) (0,0,20)\nspace origin: (150,0,0)\n"
+                              "encoding: ascii\n\n200 30 20 10 20 255\n");
+    folder_.write("alone.toml", scene(""));
+    folder_.write("window.toml", scene("level = 40\n"));
+    folder_.write("label.toml", scene("[[look.cut_volume.label]]\nvalue = 1\ncolour = [1, 2, 3]\n"));
+    const ChildResult alone = run("alone.toml");
+    EXPECT_EQ(alone.exitCode, 0) << alone.err;
+    for (const char* name : {"window.toml", "label.toml"}) {
+        const ChildResult refused = run(name);
+        EXPECT_EQ(refused.exitCode, 2) << name;
+        EXPECT_EQ(refused.errorLines(), 1u) << refused.err;
+        EXPECT_NE(refused.err.find("rgb.nrrd: has colours"), std::string::npos) << refused.err;
+    }
+}
+
 } // namespace
 } // namespace serosa::app
