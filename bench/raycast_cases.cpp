@@ -404,6 +404,9 @@ Status benchRaycast(const Options& options, Report& report) {
     fields.push_back({"depth map", bytesOf(pair.maps->bytes()), figure(rounds.milliseconds("depth map"))});
     report.line("\nA knife's cut in " + shape.name + ", by what the body is taken from.\n");
     report.table({"field", "KiB", "ms"}, fields);
+    report.line(
+        "\nThe same cut, twisted, by vertices and in the pixel: " + figure(rounds.milliseconds("hybrid")) +
+        " ms; all in the pixel: " + figure(rounds.milliseconds("all in the pixel")) + " ms.\n");
     report.ratio("raycast_depth_cube_over_distance",
                  rounds.ratio("depth-map cube", "distance field, no skipping by it"));
     report.ratio("raycast_depth_over_distance",

@@ -51,6 +51,12 @@ public:
     /// Does any texel cut?
     bool cuts() const { return cuts_; }
 
+    /// D and A of a texel, of the nearest one where there is none.
+    glm::dvec4 texel(int x, int y, int z) const {
+        const glm::ivec3 at = glm::clamp(glm::ivec3(x, y, z), glm::ivec3(0), size_ - 1);
+        return texels_[std::size_t(at.x) +
+                       std::size_t(size_.x) * (std::size_t(at.y) + std::size_t(size_.y) * std::size_t(at.z))];
+    }
     /// D and A at a place of texture space, as a linear texture filter gives them.
     glm::dvec4 sample(const glm::dvec3& texture) const;
     /// d D / d q by central differences over a texel; column j in [j].
@@ -60,11 +66,6 @@ public:
     glm::dvec3 texelSize() const { return 2.0 * half_ / glm::dvec3(size_); } // m
 
 private:
-    glm::dvec4 texel(int x, int y, int z) const { // clamped
-        const glm::ivec3 at = glm::clamp(glm::ivec3(x, y, z), glm::ivec3(0), size_ - 1);
-        return texels_[std::size_t(at.x) +
-                       std::size_t(size_.x) * (std::size_t(at.y) + std::size_t(size_.y) * std::size_t(at.z))];
-    }
     glm::ivec3 size_{1};
     glm::dvec3 half_{0.5};
     TexelFormat format_ = TexelFormat::half;

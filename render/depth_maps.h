@@ -55,7 +55,7 @@ public:
                                     const DepthPlan& plan, const std::vector<glm::u8vec4>& colours = {});
 
     RayField field() const {
-        return {plan_.kind, grid_, &depths_, colours_ ? &*colours_ : nullptr, plan_.axis};
+        return {plan_.kind, grid_, &depths_, colours_ ? &*colours_ : nullptr, plan_.axis, FieldBlocks(grid_)};
     }
     const VolumeGrid& grid() const { return grid_; }
     const DepthPlan& plan() const { return plan_; }

@@ -61,16 +61,6 @@ Result<PseudoNormals> pseudoNormals(const std::vector<glm::dvec3>& positions,
 
 } // namespace
 
-VolumeGrid VolumeGrid::around(const glm::dvec3& lowest, const glm::dvec3& highest, int samples, int margin) {
-    VolumeGrid grid;
-    const glm::dvec3 size = highest - lowest;
-    grid.step = std::max({size.x, size.y, size.z}) / std::max(samples - 1, 1);
-    for (int axis = 0; axis < 3; ++axis)
-        grid.size[axis] = int(std::ceil(size[axis] / grid.step - 1e-9)) + 1 + 2 * margin;
-    grid.lowest = 0.5 * (lowest + highest) - 0.5 * grid.step * glm::dvec3(grid.size - 1);
-    return grid;
-}
-
 Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, const VolumeGrid& grid,
                                               double band, const std::vector<glm::u8vec4>& colours) {
     if (mesh.faces.empty())
@@ -179,6 +169,7 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
         glFinish();
     }
     glFinish(); // the buffers die here
+    volume.blocks_ = FieldBlocks(grid, volume.read());
     return volume;
 }
 

@@ -18,23 +18,14 @@
 
 #include "base/result.h"
 #include "gpu/sampled_texture.h"
+#include "render/field_blocks.h"
+#include "render/volume_grid.h"
 #include "sim/triangle_mesh.h"
-
-#include <glm/glm.hpp>
 
 #include <optional>
 #include <vector>
 
 namespace serosa::render {
-
-struct VolumeGrid {
-    glm::ivec3 size{0};
-    glm::dvec3 lowest{0}; // m: middle of voxel (0, 0, 0)
-    double step = 0;      // m
-
-    /// Holds the box with `margin` voxels around. \param samples along its longest side, margins apart
-    static VolumeGrid around(const glm::dvec3& lowest, const glm::dvec3& highest, int samples, int margin);
-};
 
 class DistanceVolume {
 public:
@@ -51,6 +42,8 @@ public:
     const gpu::Texture3D& texture() const { return texture_; }
     /// RGBA8; null where there are none.
     const gpu::Texture3D* colours() const { return colours_ ? &*colours_ : nullptr; }
+    /// Where the body is.
+    const FieldBlocks& blocks() const { return blocks_; }
     /// As the texture holds them, m, x fastest. Waits.
     std::vector<float> read() const;
 
@@ -58,6 +51,7 @@ private:
     VolumeGrid grid_;
     gpu::Texture3D texture_;
     std::optional<gpu::Texture3D> colours_;
+    FieldBlocks blocks_;
 };
 
 /// The same in double on the processor: exact everywhere (sim/triangle_tree.h), m.

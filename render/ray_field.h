@@ -20,9 +20,10 @@ struct RayField {
     const gpu::Texture3D* values = nullptr;
     const gpu::Texture3D* colours = nullptr; // null: there are none
     int axis = 2;                            // of FieldKind::depth
+    FieldBlocks blocks;                      // where the body is
 
     static RayField of(const DistanceVolume& volume) {
-        return {FieldKind::distance, volume.grid(), &volume.texture(), volume.colours()};
+        return {FieldKind::distance, volume.grid(), &volume.texture(), volume.colours(), 2, volume.blocks()};
     }
 };
 

@@ -12,7 +12,7 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kReach = 4;           // texels of the coarsest axis, in which a bound holds
+constexpr int kReach = 3;           // texels of the coarsest axis, in which the wider bound holds
 constexpr double kMostBound = 1000; // what a jump has: no skipping
 constexpr double kEverywhere = 1e9; // m2: nothing is kept along this line
 
@@ -163,21 +163,24 @@ RaycastSkip RaycastSkip::of(const DeformationTexture& texture, double cylinderRa
         }
     });
     RaycastSkip made;
+    made.nearReach = coarsest;
     made.reach = kReach * coarsest;
     made.maskSlope = std::max(double(*std::max_element(slopes.begin(), slopes.end())), 1e-6);
     Grid near = bounds;
     for (int axis = 0; axis < 3; ++axis)
         if (size[axis] > 1) {
-            // One more: a filtered value is a mean over texels that lie up to one away.
-            const auto widen = [](int reach) {
-                return [reach](std::vector<double>& line) { spread(line, reach); };
+            // A place lies up to half a texel from its nearest one, and a texel knows the cells up to one
+            // away.
+            const auto widen = [by = step[axis]](double reach) {
+                return
+                    [to = int(std::ceil(reach / by - 0.5))](std::vector<double>& line) { spread(line, to); };
             };
-            near.along(axis, widen(int(std::ceil(coarsest / step[axis])) + 1));
-            bounds.along(axis, widen(int(std::ceil(made.reach / step[axis])) + 1));
+            near.along(axis, widen(made.nearReach));
+            bounds.along(axis, widen(made.reach));
             ways.along(axis, [by = step[axis]](std::vector<double>& line) { nearest(line, by); });
         }
-    // A place that is kept lies in a cell that has a kept corner; a filtered distance may be too large by
-    // half of a cell's diagonal.
+    // A place that is kept lies in a cell that has a kept corner, and the one that asks half of a cell's
+    // diagonal from its texel.
     const double margin = 1.5 * std::sqrt(diagonal2);
     made.texels.resize(count);
     for (std::size_t i = 0; i < count; ++i)

@@ -62,8 +62,9 @@ Result<Raycaster> Raycaster::create(const sim::Lattice& lattice, const RayField&
 
 void Raycaster::setWarp(const std::optional<Warp>& warp) {
     const VolumeGrid& grid = field_.grid;
-    lowest_ = grid.lowest;
-    highest_ = grid.lowest + grid.step * glm::dvec3(grid.size - 1);
+    // A voxel more: what a box cuts off is seen to begin.
+    lowest_ = glm::max(grid.lowest, field_.blocks.bounds().lowest - grid.step);
+    highest_ = glm::min(grid.highest(), field_.blocks.bounds().highest + grid.step);
     mapping_.reset();
     masked_ = false;
     beforeFromNow_ = glm::dmat4(1);
@@ -78,12 +79,9 @@ void Raycaster::setWarp(const std::optional<Warp>& warp) {
     bias_ = bytes ? 128.0 / 255 : 0;
     half_ = glm::vec3(texture.half());
     upload(texture);
-    // Of the deformed part: no further out than the longest displacement, and within the box.
-    const auto [low, high, stretch] = mapping_->boundsOf(texture.half());
-    const double most = 1.8 * stretch * texture.largest(); // of three axes that need not be orthogonal
-    // A voxel more: what a box cuts off is seen to begin.
-    lowest_ = glm::min(lowest_, glm::max(low, lowest_ - most)) - grid.step;
-    highest_ = glm::max(highest_, glm::min(high, highest_ + most)) + grid.step;
+    const Bounds shown = shownBounds_.of(*warp, field_.blocks);
+    lowest_ = shown.lowest - grid.step;
+    highest_ = shown.highest + grid.step;
 }
 
 void Raycaster::setCoarse(const CoarseWarp& coarse, int cells) {
@@ -117,9 +115,11 @@ void Raycaster::upload(const DeformationTexture& texture) {
     woundAround_ = mapping_->cylinderRadius;
     displacement_ = gpu::Texture3D("displacement", glFormat(texture.format()), texture.size());
     displacement_.upload(GL_RGBA, glType(texture.format()), texture.stored().data());
+    shownBounds_ = ShownBounds(texture);
     const RaycastSkip skip = RaycastSkip::of(texture, woundAround_);
     skipTexture_ = gpu::Texture3D("ways to go on", GL_RGBA16F, texture.size());
     skipTexture_.upload(GL_RGB, GL_FLOAT, skip.texels.data());
+    skipNear_ = skip.nearReach;
     skipReach_ = skip.reach;
     maskSlope_ = skip.maskSlope;
 }
@@ -147,6 +147,8 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
         defines.push_back({"RAYCAST_MASKED", "1"});
     if (variant.wound)
         defines.push_back({"RAYCAST_WOUND", "1"});
+    if (variant.within)
+        defines.push_back({"RAYCAST_WITHIN", "1"});
     if (variant.normals == Normals::gradient)
         defines.push_back({"RAYCAST_GRADIENT", "1"});
     if (variant.volume)
@@ -164,6 +166,19 @@ Result<gpu::Program*> Raycaster::program(const Variant& variant) {
                       : std::vector<std::string>{"raycast.vert", "raycast.frag"};
     SEROSA_ASSIGN(gpu::Program made, gpu::Program::create(gpu::ShaderLibrary(), stages, defines));
     return &programs_.emplace(variant, std::move(made)).first->second;
+}
+
+bool Raycaster::isWithin() const {
+    if (!mapping_ || mapping_->cylinderRadius > 0 || lattice_ || coarse_)
+        return false;
+    const glm::dmat4 localFromObject = glm::inverse(mapping_->objectFromLocal);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 at = glm::mix(lowest_, highest_, glm::dvec3(sim::cornerOffset(corner)));
+        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(localFromObject * glm::dvec4(at, 1))),
+                                      glm::dvec3(half_))))
+            return false;
+    }
+    return true;
 }
 
 bool Raycaster::mayBeCoarse(const RaycastLook& look, const glm::vec4& pixel) const {
@@ -190,7 +205,7 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
     SEROSA_ASSIGN(gpu::Program* const made,
                   program({look.solid, look.search, look.normals, field_.kind,
                            int(skipField) + 2 * int(look.skipCut && masked_), volume, lattice_ != nullptr,
-                           lattice_ && lattice_->isCut(), mapping_.has_value(), masked_, wound,
+                           lattice_ && lattice_->isCut(), mapping_.has_value(), masked_, wound, isWithin(),
                            stage_.has_value(), field_.colours != nullptr && !probe, look.antialias && !probe,
                            coarse, coarse_.has_value(), probe}));
     gpu::Program& program = *made;
@@ -227,13 +242,25 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
         program.set("u_cylinder", float(mapping_->cylinderRadius))
             .set("u_half", half_)
             .set("u_perSize", 0.5F / half_);
+        glm::dmat4 unitFromLocal(1), localFromTexel(scale_);
+        for (int axis = 0; axis < 3; ++axis) {
+            unitFromLocal[axis][axis] = 0.5 / half_[axis];
+            unitFromLocal[3][axis] = 0.5;
+            localFromTexel[3][axis] = -scale_ * bias_;
+        }
+        localFromTexel[3][3] = 0; // a way, no place
+        program.set("u_unitFromObject", glm::mat4(unitFromLocal * glm::inverse(objectFromLocal)));
+        program.set("u_wayFromTexel", glm::mat4(objectFromLocal * localFromTexel));
+        program.set("u_still", float(bias_));
         program.set("u_scale", float(scale_)).set("u_offset", float(-scale_ * bias_));
         program.texture("t_displacement", displacement_).texture("t_skip", skipTexture_);
         glm::vec3 inner = half_; // a wound box meets itself
         if (wound)
             inner.z = std::min(inner.z, float(std::numbers::pi * mapping_->cylinderRadius));
         const glm::dmat3 affine(objectFromLocal);
-        program.set("u_skipHalf", inner).set("u_skipReach", float(skipReach_));
+        program.set("u_skipHalf", inner)
+            .set("u_skipNear", float(skipNear_))
+            .set("u_skipReach", float(skipReach_));
         const double least = leastStretch(affine);
         program.set("u_maskSlope", float(maskSlope_)).set("u_leastStretch", float(least));
         program.set("u_shareStretch", float(largestStretch(affine) / least));

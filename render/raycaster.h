@@ -16,6 +16,7 @@
 #include "render/lattice_warp.h"
 #include "render/ray_field.h"
 #include "render/ray_proxy.h"
+#include "render/shown_bounds.h"
 #include "render/stage_box.h"
 #include "shaders/raycast_constants.h"
 #include "sim/lattice.h"
@@ -112,12 +113,14 @@ private:
         FieldKind field;
         int skip;   // 1 by the field, 2 by the cut
         int volume; // CutVolume::kind(), 0: none
-        bool lattice, cut, warped, masked, wound, staged, coloured, samples, coarse, proxy, probe;
+        bool lattice, cut, warped, masked, wound, within, staged, coloured, samples, coarse, proxy, probe;
         auto operator<=>(const Variant&) const = default;
     };
     Raycaster() = default;
     Result<gpu::Program*> program(const Variant& variant);
     void upload(const DeformationTexture& texture);
+    /// Do all rays run within the texture's box?
+    bool isWithin() const;
     /// Can any sample of what is drawn lie further apart than a step? \param pixel its width at a place
     bool mayBeCoarse(const RaycastLook& look, const glm::vec4& pixel) const;
     Status drawBox(const Frame& frame, const RaycastLook& look, bool probe);
@@ -129,7 +132,8 @@ private:
     glm::dvec3 origin_{0}; // m: of object space
     double unit_ = 1;      // m
     gpu::Texture3D displacement_, skipTexture_;
-    double skipReach_ = 0, maskSlope_ = 1;                      // m, 1/m
+    ShownBounds shownBounds_;
+    double skipNear_ = 0, skipReach_ = 0, maskSlope_ = 1;       // m, 1/m
     std::shared_ptr<const std::vector<std::uint8_t>> uploaded_; // what the textures were made from,
     double woundAround_ = 0;                                    // and of which radius
     bool masked_ = false;                                       // the texture cuts something away

@@ -1,10 +1,6 @@
 // Is a ball empty of all that a ray may meet (CS07 section 6.2; render/raycast_skip.h)? What skipFrom of raycast_skip.glsl
 // says of one ray, for all that run through the ball.
 #if defined(SKIPS) && (RAYCAST_SKIP & 1)
-float surfaceFree(Place place) {
-    return max(place.free - u_fieldStep, 0.0); // of a filtered field: a voxel in doubt
-}
-
 #ifdef RAYCAST_WARP
 /// Object space, of a way in texture space from q.
 float objectWay(vec3 q, float way) {
@@ -13,7 +9,7 @@ float objectWay(vec3 q, float way) {
 
 /// Of that part of the ball which the texture moves. \param q its place of the box, or the nearest one
 bool isClearInside(vec3 q, Place place, float radius) {
-    vec3 known = skipTexel(q);
+    vec3 known = skipTexel(q * u_perSize + 0.5);
     float same = objectWay(q, abs(place.at.mask - 0.5) / u_maskSlope); // so far the mask keeps, or does not
     bool kept = place.at.mask >= 0.5;
     if (!kept && max(same, objectWay(q, known.z)) >= radius)
@@ -36,7 +32,7 @@ bool isClear(vec3 middle, float radius) {
     float enter = u_leastStretch * length(q - nearest);
     vec3 there = middle + mat3(u_objectFromLocal) * (nearest - q);
 #endif
-    Place asIs = placeOf(Warped(middle, 1.0, true, 1e9, false, q)); // as beyond the box
+    Place asIs = placeOf(Warped(middle, 1.0, true, 1e9, false, q, q * u_perSize + 0.5)); // as beyond the box
     if (enter >= radius)
         return surfaceFree(asIs) >= radius;
     Place moved = placeAt(there);

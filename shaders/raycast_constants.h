@@ -32,6 +32,8 @@
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
 #define SRS_MOST_STEP 2.0     // and never longer
 
+#define SRS_AHEAD 1.25 // of what is clear around a place: so far ahead a ray looks
+
 #define SRS_MOST_COARSE 4.0 // of the step: what is small on the screen or fast has no longer one
 
 #define SRS_LIP_STEP 0.1 // of the step: at the lip of a blade's cut they are no shorter

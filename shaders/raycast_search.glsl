@@ -74,7 +74,16 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
             // What lies beyond the box is the surface pass's.
             found = found && stageAt(from + last * along) >= 0.0 && stageAt(shown) >= 0.0;
 #endif
-            go = advanceFrom(place, shown, along, t, slab);
+            Advance then = advanceFrom(place, shown, along, t, slab);
+#ifdef SKIPS
+            if (go.by > go.sure && go.clear + then.clear < t - last) { // anything may lie between: back
+                found = false;
+                t = last;
+                now = before;
+                then = Advance(go.sure, go.sure, go.clear, go.cut);
+            }
+#endif
+            go = then;
         }
         float low = last, high = t;
         Side below = before, above = now;

@@ -7,16 +7,17 @@
 #endif
 #if defined(SKIPS) && defined(RAYCAST_WARP)
 uniform sampler3D t_skip;     // bounds on |dp/dp'|, near and within reach; way to what is kept (m of texture space)
-uniform float u_skipReach;    // m of texture space: the second bound holds to here
+uniform float u_skipNear;     // m of texture space: the first bound holds to here,
+uniform float u_skipReach;    // and the second
 uniform float u_maskSlope;    // 1/m: largest of the mask
 uniform vec3 u_skipHalf;      // of the box, where it is wound not beyond its own seam
 uniform float u_leastStretch; // of M's affine part, object space for 1 m
 uniform float u_shareStretch; // its largest stretch over its least
 
 /// Of the nearest texel: its bounds hold half a texel around it, too.
-vec3 skipTexel(vec3 q) {
+vec3 skipTexel(vec3 unit) {
     ivec3 size = textureSize(t_skip, 0);
-    ivec3 at = clamp(ivec3(vec3(size) * (q * u_perSize + 0.5)), ivec3(0), size - 1);
+    ivec3 at = clamp(ivec3(vec3(size) * unit), ivec3(0), size - 1);
     return texelFetch(t_skip, at, 0).xyz;
 }
 
@@ -30,8 +31,15 @@ float localWay(vec3 q, float way) {
 }
 #endif
 
+/// At rest the body's surface is no nearer, object space. Of a filtered field: a voxel is in doubt, and near the surface, as its
+/// voxels hold a distance, it falls by no more than sqrt(3) on a way of 1.
+float surfaceFree(Place place) {
+    return max(place.free - u_fieldStep, 0.577 * place.free);
+}
+
 struct Skip {
-    float way;     // object space
+    float way;     // object space: so far nothing is met, whichever way the ray goes within `most`
+    float most;    // along the ray, to where that ends: in or out of the texture's box
     float stretch; // bound on |dp/dp'| here
     bool cut;      // all of the way is cut away
 };
@@ -50,18 +58,19 @@ vec2 textureSlab(vec3 from, vec3 along) {
 #endif
 }
 
-/// \param free at rest nothing is nearer, object space. \param slab of textureSlab; t: along the ray
-Skip skipFrom(Warped warped, float free, float t, vec2 slab) {
-    Skip skip = Skip(0.0, 1.0, false);
+/// \param slab of textureSlab; t: along the ray
+Skip skipFrom(Place place, float t, vec2 slab) {
+    Skip skip = Skip(0.0, 1e30, 1.0, false);
 #ifdef SKIPS
+    Warped warped = place.at;
+    float free = 0.0;
 #if RAYCAST_SKIP & 1
-    free = max(free - u_fieldStep, 0.0); // of a filtered field: a voxel in doubt
-#else
-    free = 0.0;
+    if (RAYCAST_IS_HOLLOW || place.body >= 0.0) // faces of cuts lie anywhere in it
+        free = surfaceFree(place);
 #endif
     skip.way = free;
 #ifdef RAYCAST_WARP
-    vec3 q = warped.q, known = skipTexel(q);
+    vec3 q = warped.q, known = skipTexel(warped.unit);
 #ifdef RAYCAST_WOUND
     float enter = u_leastStretch * length(max(abs(q.xy) - u_half.xy, 0.0)); // the way round is not counted
     vec3 face = u_skipHalf - abs(q);
@@ -71,7 +80,9 @@ Skip skipFrom(Warped warped, float free, float t, vec2 slab) {
 #endif
     if (warped.inside) {
         skip.stretch = known.x * u_shareStretch;
-        skip.way = min(free / (known.y * u_shareStretch), u_leastStretch * localWay(q, u_skipReach));
+        float near = min(free / skip.stretch, u_leastStretch * localWay(q, u_skipNear)),
+              far = min(free / (known.y * u_shareStretch), u_leastStretch * localWay(q, u_skipReach));
+        skip.way = max(near, far);
 #if RAYCAST_SKIP & 2
         float way = u_leastStretch * localWay(q, max(known.z, (0.5 - warped.mask) / u_maskSlope));
         if (warped.mask < 0.5 && way > skip.way) {
@@ -79,10 +90,11 @@ Skip skipFrom(Warped warped, float free, float t, vec2 slab) {
             skip.cut = true;
         }
 #endif
-        skip.way = min(skip.way, leave);
+        skip.most = leave;
     } else {
-        skip.way = min(free, enter); // things lie as at rest, up to the box
+        skip.most = enter; // things lie as at rest, up to the box
     }
+    skip.way = min(skip.way, skip.most);
 #endif
 #endif
     return skip;

@@ -66,14 +66,19 @@ float searchStep(vec3 shown, vec3 along, float body, float stretch, float base) 
 }
 
 struct Advance {
-    float by; // object space
-    bool cut; // all of the way is cut away
+    float by;    // object space
+    float sure;  // so far, at least, no look ahead is needed
+    float clear; // nothing is met within this, to either side
+    bool cut;    // all of the way is cut away
 };
 
-/// How far a ray goes on from a place.
+/// How far a ray goes on from a place. What is clear around it ends before what is clear around the next place begins, if
+/// that is further off: a ray goes on by more than is clear, and goes back where the two do not touch (Keinert et al. 2014,
+/// Enhanced Sphere Tracing).
 Advance advanceFrom(Place place, vec3 shown, vec3 along, float t, vec2 slab) {
-    Skip skip = skipFrom(place.at, place.free, t, slab);
+    Skip skip = skipFrom(place, t, slab);
     float next = searchStep(shown, along, place.body, skip.stretch, baseStep(shown, along, place));
-    float by = max(skip.way, min(next, mostStep(place)));
-    return Advance(by, skip.cut && by <= skip.way);
+    float sure = max(skip.way, min(next, mostStep(place)));
+    float ahead = skip.cut ? 0.0 : min(SRS_AHEAD * skip.way, skip.most);
+    return Advance(max(sure, ahead), sure, skip.way, skip.cut && sure <= skip.way);
 }

@@ -9,6 +9,9 @@ uniform sampler3D t_displacement; // D, as it is stored; A
 uniform float u_scale, u_offset;  // D = u_scale texel + u_offset
 uniform vec3 u_half, u_perSize;   // of the box, texture space: half of its size; 1 over its size
 uniform mat4 u_localFromObject, u_objectFromLocal;
+uniform mat4 u_unitFromObject;    // of an affine mapping: to the box, 0 to 1
+uniform mat4 u_wayFromTexel;      // and of a texel's D in object space
+uniform float u_still;            // texel that stands for no displacement
 #ifdef RAYCAST_WOUND
 uniform float u_cylinder;         // radius that the box is wound around
 #endif
@@ -57,6 +60,7 @@ struct Warped {
     float cut;    // to the nearest blade's cut, object space
     bool inside;  // of the texture's box
     vec3 q;       // in texture space
+    vec3 unit;    // the same in its box, 0 to 1
 };
 
 /// First where the lattice has taken a point from, then where the texture has: a cut or a peel of a moving organ.
@@ -71,20 +75,28 @@ Warped warp(vec3 shown) {
     shown = moved.rest;
 #endif
 #ifdef RAYCAST_WARP
-    vec3 q = toTexture(shown);
+#ifdef RAYCAST_WOUND
+    vec3 q = toTexture(shown), unit = q * u_perSize + 0.5;
     bool inside = inBox(q);
     vec4 d = inside ? readDisplacement(q) : vec4(0.0, 0.0, 0.0, 1.0);
-#ifdef RAYCAST_WOUND
     vec3 rest = inside ? toObject(q + d.xyz) : shown;
 #else
-    vec3 rest = shown + mat3(u_objectFromLocal) * d.xyz; // M(q + D), M(q) known
+    // M(q + D) as p' and a way: most of a search is here.
+    vec3 unit = (u_unitFromObject * vec4(shown, 1.0)).xyz, q = (2.0 * unit - 1.0) * u_half;
+#ifdef RAYCAST_WITHIN // all rays run in it
+    bool inside = true;
+#else
+    bool inside = all(lessThanEqual(abs(unit - 0.5), vec3(0.5)));
+#endif
+    vec4 d = inside ? textureLod(t_displacement, unit, 0.0) : vec4(vec3(u_still), 1.0);
+    vec3 rest = shown + (u_wayFromTexel * vec4(d.xyz, 1.0)).xyz;
 #endif
 #ifdef RAYCAST_MASKED
     kept = min(d.w, kept);
 #endif
-    return Warped(rest, kept, tissue, cut, inside, q);
+    return Warped(rest, kept, tissue, cut, inside, q, unit);
 #else
-    return Warped(shown, kept, tissue, cut, false, shown);
+    return Warped(shown, kept, tissue, cut, false, shown, shown);
 #endif
 }
 
