@@ -13,10 +13,14 @@ function(serosa_library name)
 endfunction()
 
 # serosa_precompile(TARGET HEADER...): parses once what most files of a target include. A file still names what it uses: presets
-# without (SEROSA_PRECOMPILE) compile it as it stands.
+# without (SEROSA_PRECOMPILE) compile it as it stands. Of precompiled headers g++ forgets that they are the system's, and warns of
+# copies in them that it does not follow (GCC bug 105651 and its kin).
 function(serosa_precompile target)
   if(SEROSA_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
       <memory> <optional> <span> <string> <utility> <vector> <glm/glm.hpp> ${ARGN})
+    target_compile_options(${target} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overread>)
   endif()
 endfunction()
