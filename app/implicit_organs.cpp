@@ -119,9 +119,9 @@ render::StageBox ImplicitOrgans::surfaceBox(std::size_t organ, double time) cons
 }
 
 Status ImplicitOrgans::place(double time) {
-    if (!deformation_ || (placed_ && !deformation_->moves()))
+    if (!isStale())
         return {};
-    placed_ = true;
+    placed_ = deformation_->version(); // also where it fails: it is said once
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         SEROSA_ASSIGN(const std::optional<render::Warp> warp, deformation_->at(i, time));
         SEROSA_ASSIGN(const std::optional<render::CoarseWarp> coarse, deformation_->coarseAt(i, time));
@@ -136,7 +136,7 @@ Status ImplicitOrgans::place(double time) {
 }
 
 Status ImplicitOrgans::moveTo(double time, render::SurfaceRenderer& renderer) {
-    if (!deformation_ || !deformation_->moves())
+    if (!isStale())
         return {};
     SEROSA_TRY(place(time));
     for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)

@@ -35,6 +35,8 @@ public:
     /// Moves the deformations to where they are at a time, in what is drawn from now on. Errors: of
     /// deformations that together do more than a texture holds.
     Status moveTo(double time, render::SurfaceRenderer& renderer);
+    /// Which may be edited: what is drawn follows at the next moveTo(). Null: the scene has none.
+    SceneDeformation* deformation() { return deformation_.get(); }
     /// What a user should know of what was made.
     std::vector<std::string> notes() const {
         return deformation_ ? deformation_->notes() : std::vector<std::string>();
@@ -59,13 +61,17 @@ private:
     Status readCutVolume(const sim::CutVolume& wanted);
     static Result<render::RayField> makeField(const sim::Look& look, const sim::TriangleMesh& metres,
                                               Organ& organ);
+    /// Do the deformations differ from what is drawn?
+    bool isStale() const {
+        return deformation_ && (deformation_->moves() || placed_ != deformation_->version());
+    }
     Status place(double time);
     render::StageBox surfaceBox(std::size_t organ, double time) const;
 
     std::unique_ptr<SceneDeformation> deformation_;
     std::unique_ptr<render::CutVolume> cutVolume_;
     std::string cutVolumeUnmet_; // what is wrong while no organ has met it
-    bool placed_ = false;        // once
+    int placed_ = -1;            // the version of the deformations that is drawn
     int proxyCells_ = 1;         // of what deformations by vertices move
     sim::Stage stage_ = sim::Stage::whole;
     double frameTime_ = 0; // s

@@ -183,6 +183,20 @@ glm::dvec3 RunParts::highest() const {
     return bound;
 }
 
+/// Can its tissue be anywhere but at rest?
+static bool canMove(const sim::Scene& scene, const sim::Organ& organ) {
+    return organ.pose || scene.gravity != glm::dvec3(0) || !scene.tools.empty() || !scene.bodies.empty() ||
+           !scene.threads.empty() || !scene.cuts.empty() || scene.organsTouch;
+}
+
+/// Organs at rest that deformations alone move: tissue that these take out of a lattice could not be shown
+/// through it.
+static bool isOfDeformationsAlone(const sim::Scene& scene) {
+    return !scene.deformations.empty() &&
+           std::none_of(scene.organs.begin(), scene.organs.end(),
+                        [&scene](const sim::Organ& organ) { return canMove(scene, organ); });
+}
+
 /// An organ that is ray-cast.
 static Status prepareImplicit(RunParts& parts, std::size_t i) {
     const OrganParts& organ = *parts.organs[i];
@@ -191,11 +205,8 @@ static Status prepareImplicit(RunParts& parts, std::size_t i) {
         return Error{parts.scene.file.string() +
                      ": what is ray-cast needs organs of one level of detail, and " + wanted.name + " has " +
                      std::to_string(wanted.levels)};
-    const sim::Scene& scene = parts.scene;
-    const bool moves = wanted.pose || scene.gravity != glm::dvec3(0) || !scene.tools.empty() ||
-                       !scene.bodies.empty() || !scene.threads.empty() || !scene.cuts.empty() ||
-                       scene.organsTouch;
-    return parts.implicit.add(scene, organ.surface.metres, organ.lattice, organ.textures().layout(), moves);
+    return parts.implicit.add(parts.scene, organ.surface.metres, organ.lattice, organ.textures().layout(),
+                              canMove(parts.scene, wanted));
 }
 
 Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker& makeContext) {
@@ -206,7 +217,7 @@ Status prepareRun(const RunOptions& options, RunParts& parts, const ContextMaker
     for (const auto& organ : parts.organs)
         organ->setup.tools = parts.scene.tools;
     SEROSA_TRY(prepareCoupling(parts));
-    if (options.hands)
+    if (options.hands && !isOfDeformationsAlone(parts.scene))
         addHands(parts);
     SEROSA_TRY(checkGrasps(parts.scene, parts.placedOrgans()));
     SEROSA_ASSIGN(parts.context, makeContext ? makeContext(parts.scene) : gpu::createContext(options.gl));

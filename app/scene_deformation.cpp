@@ -4,6 +4,7 @@
 #include "app/deformation_file.h"
 #include "render/deformation_chain.h"
 #include "sim/node_depths.h"
+#include "sim/scene_keys.h"
 #include "sim/triangle_tree.h"
 
 #include <algorithm>
@@ -91,31 +92,62 @@ Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deform
 Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
     SceneDeformation made;
     made.scene_ = scene;
+    made.asWritten_ = scene.deformations;
     made.met_.assign(scene.deformations.size(), false);
     for (std::size_t i = 0; i < scene.deformations.size(); ++i) {
-        if (scene.deformations[i].by == sim::DeformationBy::vertices) {
-            const Result<render::CoarseWarp> alone = render::CoarseWarp::create(
-                {{mapOf(scene.deformations[i]), mappingOf(scene.deformations[i], 0)}});
-            if (!alone.ok())
-                return made.errorOf(i, alone.error().message);
-            made.textures_.emplace_back();
-            continue;
-        }
-        Result<render::DeformationTexture> texture = made.textureOf(scene.deformations[i]);
-        if (!texture.ok())
-            return made.errorOf(i, texture.error().message);
-        const bool closed =
-            scene.deformations[i].kind < sim::DeformationKind::points; // refused where they fold
-        if (const double folded = closed ? 0 : render::foldedShare(*texture); folded > 0) {
-            char text[120];
-            std::snprintf(text, sizeof text,
-                          "deformation: %s folds in %.2g%% of its box: of two places at rest one is shown",
-                          render::nameOf(scene.deformations[i].kind), 100 * folded);
-            made.notes_.push_back(text);
-        }
-        made.textures_.push_back(std::move(*texture));
+        SEROSA_ASSIGN(std::optional<render::DeformationTexture> texture,
+                      made.makeTexture(scene.deformations[i], i));
+        made.textures_.push_back(std::move(texture));
     }
     return made;
+}
+
+Result<std::optional<render::DeformationTexture>> SceneDeformation::makeTexture(const sim::Deformation& one,
+                                                                                std::size_t i) {
+    if (one.by == sim::DeformationBy::vertices) {
+        const Result<render::CoarseWarp> alone =
+            render::CoarseWarp::create({{mapOf(one), mappingOf(one, 0)}});
+        if (!alone.ok())
+            return errorOf(i, alone.error().message);
+        return std::optional<render::DeformationTexture>();
+    }
+    Result<render::DeformationTexture> texture = textureOf(one);
+    if (!texture.ok())
+        return errorOf(i, texture.error().message);
+    const bool closed = one.kind < sim::DeformationKind::points; // refused where they fold
+    if (const double folded = closed ? 0 : render::foldedShare(*texture); folded > 0) {
+        char text[120];
+        std::snprintf(text, sizeof text,
+                      "deformation: %s folds in %.2g%% of its box: of two places at rest one is shown",
+                      render::nameOf(one.kind), 100 * folded);
+        notes_.push_back(text);
+    }
+    return std::optional(std::move(*texture));
+}
+
+render::TextureMapping SceneDeformation::mapping(std::size_t i, double time) const {
+    return mappingOf(scene_.deformations[i], time);
+}
+
+std::string SceneDeformation::name(std::size_t i) const {
+    return sim::findSceneKey("deformation", "kind")->words[std::size_t(scene_.deformations[i].kind)];
+}
+
+Status SceneDeformation::edit(std::size_t i, const sim::Deformation& now) {
+    sim::Deformation& one = scene_.deformations[i];
+    if (now.amount != one.amount || now.points != one.points || now.by == sim::DeformationBy::vertices) {
+        SEROSA_ASSIGN(std::optional<render::DeformationTexture> texture, makeTexture(now, i));
+        textures_[i] = std::move(texture);
+    }
+    one = now;
+    ++version_;
+    return {};
+}
+
+Status SceneDeformation::restore() {
+    for (std::size_t i = 0; i < asWritten_.size(); ++i)
+        SEROSA_TRY(edit(i, asWritten_[i]));
+    return {};
 }
 
 render::Warp SceneDeformation::warpOf(std::size_t i, double time) const {
@@ -214,6 +246,7 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
                    one.mapping.cylinderRadius == first.mapping.cylinderRadius;
     }
     made.time = time;
+    made.version = version_;
     if (together) {
         render::DeformationTexture sum = *warps.front().texture;
         for (std::size_t i = 1; i < some.size(); ++i) {
@@ -244,7 +277,7 @@ Result<std::optional<render::Warp>> SceneDeformation::at(std::size_t organ, doub
     if (some.size() == 1)
         return std::optional(warpOf(some.front(), time));
     Chain& chain = chains_[some];
-    if (!chain.texture || (moves() && time != chain.time))
+    if (!chain.texture || (moves() && time != chain.time) || chain.version != version_)
         SEROSA_TRY(link(some, time, chain));
     return std::optional(render::Warp{&*chain.texture, chain.mapping});
 }

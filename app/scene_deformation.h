@@ -38,6 +38,19 @@ public:
     Result<std::optional<render::CoarseWarp>> coarseAt(std::size_t organ, double time) const;
     /// The first deformation of an organ by vertices, for a message; nothing: none is.
     std::optional<std::size_t> firstByVertices(std::size_t organ) const;
+    /// As it is now: what the scene says, unless it was edited.
+    const sim::Deformation& deformation(std::size_t i) const { return scene_.deformations[i]; }
+    /// Where its box lies at a time, m.
+    render::TextureMapping mapping(std::size_t i, double time) const;
+    std::string name(std::size_t i) const; // its kind, as a scene says it
+    std::size_t count() const { return scene_.deformations.size(); }
+    /// Puts another in its place, of the same kind: its box elsewhere, more or less of what it does, its
+    /// points moved. What depends on that alone is made again. Errors, which change nothing: as create().
+    Status edit(std::size_t i, const sim::Deformation& now);
+    /// All as the scene says.
+    Status restore();
+    /// Rises with each edit.
+    int version() const { return version_; }
     Error errorOf(std::size_t i, const std::string& message) const;
     /// What takes a place of its box at a time to where it was a while (s) before, m; of several boxes of
     /// the organ, of the one that goes furthest. Of those that pixels do.
@@ -61,11 +74,15 @@ private:
         std::optional<render::DeformationTexture> texture;
         render::TextureMapping mapping;
         double time = -1;
+        int version = -1;
     };
+    Result<std::optional<render::DeformationTexture>> makeTexture(const sim::Deformation& one, std::size_t i);
     Status checkCoarse(std::size_t organ, const sim::TriangleMesh& metres);
     Status link(const std::vector<std::size_t>& some, double time, Chain& chain) const;
 
     sim::Scene scene_;
+    std::vector<sim::Deformation> asWritten_;
+    int version_ = 0;
     std::vector<std::optional<render::DeformationTexture>> textures_; // one a deformation, by pixels
     std::vector<bool> met_;                                           // an organ lies in its box
     std::map<std::vector<std::size_t>, Chain> chains_;

@@ -7,6 +7,7 @@
 #include "app/progress.h"
 #include "app/run_setup.h"
 #include "app/scene_player.h"
+#include "app/view_deformation.h"
 #include "app/view_hand.h"
 #include "app/view_panel.h"
 #include "base/check.h"
@@ -71,6 +72,7 @@ public:
         while (!ended) {
             takeEvents(window_.poll(waitTime()));
             SEROSA_TRY(guideHand());
+            guideDeformation();
             simulate();
             act();
             draw();
@@ -125,6 +127,13 @@ private:
         return {};
     }
 
+    void guideDeformation() {
+        const ViewDeformation::Said said =
+            deformation_.follow(controls_, cameraView(), glm::dvec2(window_.size()), player_.time());
+        if (!said.text.empty())
+            say(said.text, said.isError);
+    }
+
     void frame() {
         const Clock::time_point start = Clock::now();
         hand_.beforeFrame((player_.frame() + 1) / parts_.scene.frameRate);
@@ -148,6 +157,7 @@ private:
         if (controls_.restart) {
             hand_.restart();
             player_.reset();
+            deformation_.restart();
             readings_.stopped = player_.alarmLines();
             clock_.restart();
             say("back at rest");
@@ -297,6 +307,7 @@ private:
     ViewReadings readings_;
     ViewInput input_{controls_, camera_};
     ViewHand hand_{parts_};
+    ViewDeformation deformation_{parts_};
     bool wasPaused_ = false;
     int redraws_ = kRedrawsAfterEvent;
     Clock::time_point lastLook_ = Clock::now(), lastDraw_{}, paceStart_ = Clock::now();

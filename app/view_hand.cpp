@@ -27,9 +27,13 @@ Result<std::optional<glm::dvec3>> ViewHand::pick(const Ray& ray, const ScenePlay
 Result<std::string> ViewHand::follow(ViewControls& controls, const render::CameraView& camera,
                                      const glm::dvec2& window, const ScenePlayer& player) {
     if (!parts_.hands)
-        return std::string(std::exchange(wanted_, controls.hand) != controls.hand && controls.hand
-                               ? "no hands here: the scene has as many tools as there can be"
-                               : "");
+        return std::string(
+            std::exchange(wanted_, controls.hand) != controls.hand && controls.hand
+                ? parts_.implicit.deformation()
+                      ? "no hands here: deformations alone move this scene (ctrl + shift + drag); "
+                        "gravity or a tool would let its organs move"
+                      : "no hands here: the scene has as many tools as there can be"
+                : "");
     const Ray ray = rayThrough(camera, controls.pointer, window);
     const double now = player.time();
     std::string said;

@@ -24,7 +24,7 @@ void ViewInput::take(const gpu::WindowEvent& event, int height, bool taken) {
 void ViewInput::mouse(const gpu::WindowEvent& event, double height, bool taken) {
     using Kind = gpu::WindowEvent::Kind;
     if (event.kind == Kind::scrolled) { // amounts, no place
-        if (controls_.hand)
+        if (controls_.hand || controls_.box)
             controls_.deeper += event.at.y;
         else if (!taken)
             camera_.zoom(std::pow(kWheelZoom, event.at.y));
@@ -32,6 +32,10 @@ void ViewInput::mouse(const gpu::WindowEvent& event, double height, bool taken) 
     }
     const glm::dvec2 moved = glm::dvec2(event.at.x - pointer_.x, pointer_.y - event.at.y) / height;
     pointer_ = controls_.pointer = event.at;
+    if (event.kind == Kind::buttonPressed && !taken && event.control && event.shift) {
+        controls_.box = event.button == gpu::MouseButton::left ? BoxDrag::move : BoxDrag::turn;
+        return;
+    }
     if (event.kind == Kind::buttonPressed && !taken && event.control) {
         controls_.hand = event.button == gpu::MouseButton::left ? HandKind::grasp : HandKind::probe;
         return;
@@ -41,6 +45,7 @@ void ViewInput::mouse(const gpu::WindowEvent& event, double height, bool taken) 
     if (event.kind == Kind::buttonReleased) {
         drag_ = Drag::none;
         controls_.hand.reset();
+        controls_.box.reset();
     }
     if (event.kind != Kind::moved)
         return;
@@ -108,6 +113,9 @@ void ViewInput::press(int key) {
         controls_.look.colour = controls_.look.colour == sim::SurfaceColour::tissue
                                     ? sim::SurfaceColour::dynamicNormal
                                     : sim::SurfaceColour::tissue;
+        break;
+    case 'd':
+        controls_.nextBox = true;
         break;
     case 'c':
     case gpu::keyHome:

@@ -10,20 +10,43 @@
 #include <glm/glm.hpp>
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace serosa::app {
+
+/// What a drag does to the box of a deformation (app/view_deformation.h).
+enum class BoxDrag { move, turn };
+
+/// The chosen deformation of a scene, as panel and view show it to each other.
+struct DeformationPanel {
+    std::vector<std::string> names; // of all; empty: the scene has none
+    int chosen = 0;
+    glm::vec3 at{0}; // mm: middle of its box
+    float scale = 1, amount = 0;
+    const char* unit = nullptr; // of amount; null: it has none
+    // The panel did these; the view clears them.
+    bool edited = false, settled = false, restore = false;
+    bool outline = true;                                // the box is shown
+    std::vector<std::pair<glm::vec2, glm::vec2>> lines; // of it, in the window
+};
 
 /// What keys and panel both set; the loop of the view acts on it.
 struct ViewControls {
     bool paused = false, wireframe = false, panel = true;
     sim::Look look;
     sim::Mapping sceneMapping = sim::Mapping::curvature; // what the scene asks for
-    // Asked for once; the loop clears them.
     // A hand that follows the pointer, as long as a button is held.
     std::optional<HandKind> hand;
     glm::dvec2 pointer{0}; // screen units from the window's top left corner, y down
     double deeper = 0;     // turns of the wheel away from the user since the last look
-    int steps = 0;         // frames, one by one
+    // A deformation that follows it, likewise: the wheel then scales its box.
+    std::optional<BoxDrag> box;
+    bool nextBox = false; // the next one of the scene's deformations
+    DeformationPanel deformation;
+    // Asked for once; the loop clears them.
+    int steps = 0; // frames, one by one
     bool restart = false, picture = false, windowPicture = false, reload = false, resetCamera = false,
          quit = false;
 };

@@ -24,6 +24,10 @@ constexpr const char* kHelp = "drag         turn\n"
                               "ctrl+drag    hold tissue\n"
                               "ctrl+right   push it\n"
                               "  and wheel  deeper, nearer\n"
+                              "ctrl+shift+drag  move a deformation\n"
+                              "  right button   turn it\n"
+                              "  and wheel      larger, smaller\n"
+                              "d            the next deformation\n"
                               "arrows       turn; shift: move\n"
                               "c            camera of the scene\n"
                               "space . r    pause, step, restart\n"
@@ -99,6 +103,39 @@ void drawSwitches(ViewControls& controls) {
     controls.look.colour = normals ? sim::SurfaceColour::dynamicNormal : sim::SurfaceColour::tissue;
 }
 
+void drawDeformation(DeformationPanel& panel) {
+    if (panel.names.empty() || !ImGui::CollapsingHeader("deformation", ImGuiTreeNodeFlags_DefaultOpen))
+        return;
+    if (panel.names.size() == 1) {
+        ImGui::TextUnformatted(panel.names.front().c_str());
+    } else if (ImGui::BeginCombo("##which", panel.names[std::size_t(panel.chosen)].c_str())) {
+        for (std::size_t i = 0; i < panel.names.size(); ++i)
+            if (ImGui::Selectable(panel.names[i].c_str(), int(i) == panel.chosen))
+                panel.chosen = int(i);
+        ImGui::EndCombo();
+    }
+    const auto settle = [&panel] { panel.settled = panel.settled || ImGui::IsItemDeactivatedAfterEdit(); };
+    panel.edited = ImGui::DragFloat3("mm", &panel.at.x, 0.5F, 0, 0, "%.1f") || panel.edited;
+    settle();
+    panel.edited = ImGui::DragFloat("scale", &panel.scale, 0.01F, 0.02F, 50, "%.2f") || panel.edited;
+    settle();
+    if (panel.unit) {
+        panel.edited = ImGui::DragFloat(panel.unit, &panel.amount, 0.5F, 0, 0, "%.1f") || panel.edited;
+        settle();
+    }
+    ImGui::Checkbox("box", &panel.outline);
+    ImGui::SameLine();
+    panel.restore = ImGui::Button("As in the scene") || panel.restore;
+    ImGui::Separator();
+}
+
+/// Over the picture, under the panel.
+void drawOutline(const DeformationPanel& panel) {
+    ImDrawList& over = *ImGui::GetBackgroundDrawList();
+    for (const auto& [from, to] : panel.lines)
+        over.AddLine(ImVec2(from.x, from.y), ImVec2(to.x, to.y), IM_COL32(255, 200, 90, 160), 1.5F);
+}
+
 } // namespace
 
 ViewPanel::ViewPanel(gpu::Window& window) {
@@ -137,6 +174,8 @@ void ViewPanel::draw(ViewControls& controls, const ViewReadings& readings) {
     shown = ImVec2(std::max(shown.x, 0.0f), std::max(shown.y, 0.0f));
     ImGui::NewFrame();
     const float scale = ImGui::GetIO().FontGlobalScale;
+    if (controls.panel && controls.deformation.outline)
+        drawOutline(controls.deformation);
     if (controls.panel) {
         ImGui::SetNextWindowPos(ImVec2(kMargin * scale, kMargin * scale), ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize(ImVec2(kWidth * scale, 0));
@@ -146,6 +185,7 @@ void ViewPanel::draw(ViewControls& controls, const ViewReadings& readings) {
         ImGui::Separator();
         drawSwitches(controls);
         ImGui::Separator();
+        drawDeformation(controls.deformation);
         if (ImGui::CollapsingHeader("keys and mouse"))
             ImGui::TextUnformatted(kHelp);
         ImGui::End();
@@ -162,7 +202,9 @@ void ViewPanel::draw(ViewControls& controls, const ViewReadings& readings) {
                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
         if (readings.isError)
             ImGui::PushStyleColor(ImGuiCol_Text, kErrorColour);
+        ImGui::PushTextWrapPos(size.x - 4 * kMargin * scale);
         ImGui::TextUnformatted(readings.message.c_str());
+        ImGui::PopTextWrapPos();
         if (readings.isError)
             ImGui::PopStyleColor();
         ImGui::End();

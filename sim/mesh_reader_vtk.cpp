@@ -216,7 +216,8 @@ private:
         if (lowered(encoding) == "binary")
             in_.setBinary();
         else if (lowered(encoding) != "ascii")
-            return in_.error(inQuotes(encoding) + " where ASCII or BINARY should stand; export the mesh again");
+            return in_.error(inQuotes(encoding) +
+                             " where ASCII or BINARY should stand; export the mesh again");
         const std::string_view dataset = in_.word();
         if (lowered(dataset) != "dataset")
             return in_.error(inQuotes(dataset) + " where DATASET should stand; export the mesh again");
