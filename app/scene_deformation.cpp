@@ -217,6 +217,12 @@ Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metre
                                "the organ crosses a face of its box on which the map does not vanish, and is "
                                "torn there: " +
                                    torn + ": enlarge the box, or move it until these faces lie outside");
+            const std::string ending = render::endingFaces(faces);
+            const std::string note = "deformation: what the " + name(i) +
+                                     " moves ends at a face of its box: " + ending +
+                                     ": enlarge the box for all of it to be seen";
+            if (!ending.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
+                notes_.push_back(note);
             const auto box = warp.mapping.boundsOf(warp.texture->half());
             met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, highest)) &&
                                   glm::all(glm::lessThan(lowest, box.highest)));

@@ -12,6 +12,8 @@ namespace {
 constexpr int kSamples = 24;   // along a side of a face
 constexpr double kStill = 0.1; // texels
 
+constexpr const char* kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
 double coarsest(const DeformationTexture& texture) {
     const glm::dvec3 texel = texture.texelSize();
     double most = 0;
@@ -50,18 +52,36 @@ std::array<FaceOfBox, 6> examineFaces(const Warp& warp,
             if (!(moved > enough || cut))
                 continue;
             one.still = false;
-            if ((one.tears && moved <= one.moved) || !inside(warp.mapping.toObject(q)))
+            const glm::dvec3 shown = warp.mapping.toObject(q);
+            if (!one.ends && !cut && moved > enough && inside(warp.mapping.toObject(q + glm::dvec3(read)))) {
+                one.ends = true;
+                one.endsAt = shown;
+            }
+            if ((one.tears && moved <= one.moved) || !inside(shown))
                 continue;
             one.tears = true;
             one.moved = moved;
-            one.at = warp.mapping.toObject(q);
+            one.at = shown;
         }
     }
     return faces;
 }
 
+std::string endingFaces(const std::array<FaceOfBox, 6>& faces) {
+    std::string text;
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (!faces[i].ends)
+            continue;
+        char line[120];
+        const glm::dvec3 at = 1e3 * faces[i].endsAt;
+        std::snprintf(line, sizeof line, "%s%s at (%.3g, %.3g, %.3g) mm", text.empty() ? "" : ", ", kNames[i],
+                      at.x, at.y, at.z);
+        text += line;
+    }
+    return text;
+}
+
 std::string tornFaces(const std::array<FaceOfBox, 6>& faces) {
-    static const char* const kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
     std::string text;
     for (std::size_t i = 0; i < 6; ++i) {
         if (!faces[i].tears)

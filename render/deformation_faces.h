@@ -11,10 +11,12 @@
 namespace serosa::render {
 
 struct FaceOfBox {
-    bool still = true;  // nothing moves and nothing is cut anywhere on it
-    bool tears = false; // the object crosses it where something does
-    double moved = 0;   // m: there, at most; texture space
-    glm::dvec3 at{0};   // object space: where it moves most, or is cut
+    bool still = true;    // nothing moves and nothing is cut anywhere on it
+    bool tears = false;   // the object crosses it where something does
+    double moved = 0;     // m: there, at most; texture space
+    glm::dvec3 at{0};     // object space: where it moves most, or is cut
+    bool ends = false;    // what is moved to it ends there: beyond it the object's rest is shown
+    glm::dvec3 endsAt{0}; // object space
 };
 
 /// -x, +x, -y, +y, -z, +z, from samples just inside of them. Less than a tenth of a texel counts as still.
@@ -23,6 +25,9 @@ std::array<FaceOfBox, 6> examineFaces(const Warp& warp, const std::function<bool
 
 /// The faces that tear the object, for a message; empty: none.
 std::string tornFaces(const std::array<FaceOfBox, 6>& faces);
+
+/// The faces at which something ends that is moved to them, for a message; empty: none.
+std::string endingFaces(const std::array<FaceOfBox, 6>& faces);
 
 /// Share of the texels in which the map turns the inside out (its Jacobian is not positive), of those that
 /// are kept: there two places at rest are shown at one, and what is shown is one of them.

@@ -45,6 +45,10 @@ TEST(DeformationFaces, SayWhereAnObjectIsTorn) {
     EXPECT_NEAR(torn[3].at.y, 0.05, 1e-6);
     EXPECT_NEAR(torn[3].at.x, 0.1, 0.01);
     EXPECT_NE(tornFaces(torn).find("+y"), std::string::npos);
+    // Of a ball that the pull draws out through the top, what is drawn ends there.
+    EXPECT_EQ(endingFaces(clear).rfind("+y at (", 0), 0U) << endingFaces(clear);
+    EXPECT_NEAR(clear[3].endsAt.y, 0.05, 1e-6);
+    EXPECT_EQ(endingFaces(examineFaces(warp, ball(0.02, {0.1, 0, 0}))), "");
     // A texture that is constant along an axis does not vanish on its faces.
     const DeformationTexture flat = baked(pull(), {32, 32, 1});
     EXPECT_FALSE(examineFaces({&flat, {}}, ball(0.01))[4].still);
