@@ -4,7 +4,6 @@
 #include "app/deformation_file.h"
 #include "render/deformation_chain.h"
 #include "sim/node_depths.h"
-#include "sim/scene_keys.h"
 #include "sim/triangle_tree.h"
 
 #include <algorithm>
@@ -71,13 +70,13 @@ Error SceneDeformation::errorOf(std::size_t i, const std::string& message) const
                  ": deformation: " + message};
 }
 
-Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deformation& one) {
+Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deformation& one, std::string& note) {
     const render::TexelFormat format = formatOf(one);
     if (one.kind == sim::DeformationKind::texture)
         return readDeformationTexture(one.file, format);
     if (one.kind == sim::DeformationKind::image) {
         SEROSA_ASSIGN(render::InvertedDisplacement inverted, readForwardDisplacement(one.file, format));
-        notes_.push_back(residualNote(inverted.residual, one.file));
+        note = residualNote(inverted.residual, one.file);
         return std::move(inverted.texture);
     }
     if (one.kind == sim::DeformationKind::points) {
@@ -94,6 +93,7 @@ Result<SceneDeformation> SceneDeformation::create(const sim::Scene& scene) {
     made.scene_ = scene;
     made.asWritten_ = scene.deformations;
     made.met_.assign(scene.deformations.size(), false);
+    made.notes_.resize(scene.deformations.size());
     for (std::size_t i = 0; i < scene.deformations.size(); ++i) {
         SEROSA_ASSIGN(std::optional<render::DeformationTexture> texture,
                       made.makeTexture(scene.deformations[i], i));
@@ -111,7 +111,8 @@ Result<std::optional<render::DeformationTexture>> SceneDeformation::makeTexture(
             return errorOf(i, alone.error().message);
         return std::optional<render::DeformationTexture>();
     }
-    Result<render::DeformationTexture> texture = textureOf(one);
+    std::string note;
+    Result<render::DeformationTexture> texture = textureOf(one, note);
     if (!texture.ok())
         return errorOf(i, texture.error().message);
     const bool closed = one.kind < sim::DeformationKind::points; // refused where they fold
@@ -120,8 +121,9 @@ Result<std::optional<render::DeformationTexture>> SceneDeformation::makeTexture(
         std::snprintf(text, sizeof text,
                       "deformation: %s folds in %.2g%% of its box: of two places at rest one is shown",
                       render::nameOf(one.kind), 100 * folded);
-        notes_.push_back(text);
+        note += (note.empty() ? "" : "; ") + std::string(text);
     }
+    notes_[i].made = note;
     return std::optional(std::move(*texture));
 }
 
@@ -130,7 +132,16 @@ render::TextureMapping SceneDeformation::mapping(std::size_t i, double time) con
 }
 
 std::string SceneDeformation::name(std::size_t i) const {
-    return sim::findSceneKey("deformation", "kind")->words[std::size_t(scene_.deformations[i].kind)];
+    return render::nameOf(scene_.deformations[i].kind);
+}
+
+std::vector<std::string> SceneDeformation::notes() const {
+    std::vector<std::string> all;
+    for (const Notes& of : notes_)
+        for (const std::string& note : {of.made, of.placed})
+            if (!note.empty())
+                all.push_back(note);
+    return all;
 }
 
 Status SceneDeformation::edit(std::size_t i, const sim::Deformation& now) {
@@ -140,6 +151,7 @@ Status SceneDeformation::edit(std::size_t i, const sim::Deformation& now) {
         textures_[i] = std::move(texture);
     }
     one = now;
+    notes_[i].placed.clear();
     ++version_;
     return {};
 }
@@ -218,11 +230,9 @@ Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metre
                                "torn there: " +
                                    torn + ": enlarge the box, or move it until these faces lie outside");
             const std::string ending = render::endingFaces(faces);
-            const std::string note = "deformation: what the " + name(i) +
-                                     " moves ends at a face of its box: " + ending +
-                                     ": enlarge the box for all of it to be seen";
-            if (!ending.empty() && std::find(notes_.begin(), notes_.end(), note) == notes_.end())
-                notes_.push_back(note);
+            if (!ending.empty())
+                notes_[i].placed = "deformation: what the " + name(i) + " moves ends at a face of its box: " +
+                                   ending + ": enlarge the box for all of it to be seen";
             const auto box = warp.mapping.boundsOf(warp.texture->half());
             met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, highest)) &&
                                   glm::all(glm::lessThan(lowest, box.highest)));

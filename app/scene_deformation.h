@@ -64,10 +64,10 @@ public:
         return textures_[i] ? &*textures_[i] : nullptr;
     }
     /// What a user should know of what was made.
-    const std::vector<std::string>& notes() const { return notes_; }
+    std::vector<std::string> notes() const;
 
 private:
-    Result<render::DeformationTexture> textureOf(const sim::Deformation& one);
+    static Result<render::DeformationTexture> textureOf(const sim::Deformation& one, std::string& note);
     render::Warp warpOf(std::size_t i, double time) const;
     /// Some of them as one.
     struct Chain {
@@ -86,7 +86,10 @@ private:
     std::vector<std::optional<render::DeformationTexture>> textures_; // one a deformation, by pixels
     std::vector<bool> met_;                                           // an organ lies in its box
     std::map<std::vector<std::size_t>, Chain> chains_;
-    std::vector<std::string> notes_;
+    struct Notes {
+        std::string made, placed; // of its texture; of where its box lies, by check()
+    };
+    std::vector<Notes> notes_; // one a deformation: an edit's take the place of those before
 };
 
 } // namespace serosa::app

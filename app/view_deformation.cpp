@@ -162,7 +162,10 @@ ViewDeformation::Said ViewDeformation::end() {
     for (std::size_t i = 0; i < parts_.organs.size(); ++i)
         if (const Status fits = all.check(i, parts_.organs[i]->surface.metres); !fits.ok())
             return {fits.error().message, true};
-    return {all.name(chosen_) + ": " + sceneText(all.deformation(chosen_))};
+    std::string text = all.name(chosen_) + ": " + sceneText(all.deformation(chosen_));
+    for (const std::string& note : all.notes())
+        text += "\n" + note;
+    return {text};
 }
 
 ViewDeformation::Said ViewDeformation::follow(ViewControls& controls, const render::CameraView& camera,

@@ -30,7 +30,7 @@ Result<ChainedWarp> chain(const std::vector<Warp>& warps, TexelFormat format, st
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     double step = low.x;
     for (const Warp& warp : warps) {
-        const TextureMapping::Bounds box = warp.mapping.boundsOf(warp.texture->half());
+        const Bounds box = warp.mapping.boundsOf(warp.texture->half());
         low = glm::min(low, box.lowest);
         high = glm::max(high, box.highest);
         step = std::min(step, finest(warp));

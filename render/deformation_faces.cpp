@@ -12,14 +12,29 @@ namespace {
 constexpr int kSamples = 24;   // along a side of a face
 constexpr double kStill = 0.1; // texels
 
-constexpr const char* kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
-
 double coarsest(const DeformationTexture& texture) {
     const glm::dvec3 texel = texture.texelSize();
     double most = 0;
     for (int axis = 0; axis < 3; ++axis)
         most = std::max(most, texture.size()[axis] > 1 ? texel[axis] : 0.0);
     return most > 0 ? most : std::min({texel.x, texel.y, texel.z});
+}
+
+std::string placeText(const glm::dvec3& at) {
+    char text[80];
+    std::snprintf(text, sizeof text, " at (%.3g, %.3g, %.3g) mm", 1e3 * at.x, 1e3 * at.y, 1e3 * at.z);
+    return text;
+}
+
+/// "+y ..., -z ...": of those that are meant, what `say` says.
+template <class Say>
+std::string facesText(const std::array<FaceOfBox, 6>& faces, bool FaceOfBox::* meant, const Say& say) {
+    static const char* const kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+    std::string text;
+    for (std::size_t i = 0; i < 6; ++i)
+        if (faces[i].*meant)
+            text += (text.empty() ? "" : ", ") + (kNames[i] + say(faces[i]));
+    return text;
 }
 
 /// The ends of a box that is wound once around meet.
@@ -67,32 +82,16 @@ std::array<FaceOfBox, 6> examineFaces(const Warp& warp,
     return faces;
 }
 
-std::string endingFaces(const std::array<FaceOfBox, 6>& faces) {
-    std::string text;
-    for (std::size_t i = 0; i < 6; ++i) {
-        if (!faces[i].ends)
-            continue;
-        char line[120];
-        const glm::dvec3 at = 1e3 * faces[i].endsAt;
-        std::snprintf(line, sizeof line, "%s%s at (%.3g, %.3g, %.3g) mm", text.empty() ? "" : ", ", kNames[i],
-                      at.x, at.y, at.z);
-        text += line;
-    }
-    return text;
+std::string tornFaces(const std::array<FaceOfBox, 6>& faces) {
+    return facesText(faces, &FaceOfBox::tears, [](const FaceOfBox& face) {
+        char by[40];
+        std::snprintf(by, sizeof by, " by %.3g mm", 1e3 * face.moved);
+        return by + placeText(face.at);
+    });
 }
 
-std::string tornFaces(const std::array<FaceOfBox, 6>& faces) {
-    std::string text;
-    for (std::size_t i = 0; i < 6; ++i) {
-        if (!faces[i].tears)
-            continue;
-        char line[160];
-        const glm::dvec3 at = 1e3 * faces[i].at;
-        std::snprintf(line, sizeof line, "%s%s by %.3g mm at (%.3g, %.3g, %.3g) mm", text.empty() ? "" : ", ",
-                      kNames[i], 1e3 * faces[i].moved, at.x, at.y, at.z);
-        text += line;
-    }
-    return text;
+std::string endingFaces(const std::array<FaceOfBox, 6>& faces) {
+    return facesText(faces, &FaceOfBox::ends, [](const FaceOfBox& face) { return placeText(face.endsAt); });
 }
 
 double foldedShare(const DeformationTexture& texture) {

@@ -5,6 +5,7 @@
 // In a cell between voxels the field is interpolated, and so nowhere less than in its corners: the bounds are
 // no estimates.
 
+#include "render/bounds.h"
 #include "render/volume_grid.h"
 
 #include <cstdint>
@@ -12,11 +13,6 @@
 #include <vector>
 
 namespace serosa::render {
-
-/// A box of object space.
-struct Bounds {
-    glm::dvec3 lowest{0}, highest{0}; // m
-};
 
 class FieldBlocks {
 public:

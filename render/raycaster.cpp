@@ -102,7 +102,7 @@ void Raycaster::setStage(const std::optional<StageBox>& stage) {
     stage_ = stage;
     if (!stage)
         return;
-    const TextureMapping::Bounds box = stage->mapping.boundsOf(stage->half);
+    const Bounds box = stage->mapping.boundsOf(stage->half);
     lowest_ = glm::max(lowest_, box.lowest - field_.grid.step);
     highest_ = glm::min(highest_, box.highest + field_.grid.step);
 }

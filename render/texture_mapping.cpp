@@ -34,7 +34,7 @@ glm::dmat3 TextureMapping::jacobian(const glm::dvec3& texture) const {
     return glm::dmat3(objectFromLocal) * local;
 }
 
-TextureMapping::Bounds TextureMapping::boundsOf(const glm::dvec3& half) const {
+Bounds TextureMapping::boundsOf(const glm::dvec3& half) const {
     constexpr int kSamples = 16;
     Bounds bounds;
     bounds.lowest = glm::dvec3(std::numeric_limits<double>::infinity());
@@ -45,9 +45,6 @@ TextureMapping::Bounds TextureMapping::boundsOf(const glm::dvec3& half) const {
                 const glm::dvec3 q = (2.0 * glm::dvec3(x, y, z) / double(kSamples) - 1.0) * half;
                 bounds.lowest = glm::min(bounds.lowest, toObject(q));
                 bounds.highest = glm::max(bounds.highest, toObject(q));
-                const glm::dmat3 j = jacobian(q);
-                for (int axis = 0; axis < 3; ++axis)
-                    bounds.stretch = std::max(bounds.stretch, glm::length(j[axis]));
             }
     return bounds;
 }

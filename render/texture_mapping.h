@@ -7,7 +7,7 @@
 // Cylindrical: the same into a local frame, whose x - z plane is then wound around y: q = (r - r0, y, r0
 // phi), phi = 0 on +x; the plane q.x = 0 becomes a cylinder of radius r0 ("round" cuts).
 
-#include <glm/glm.hpp>
+#include "render/bounds.h"
 
 namespace serosa::render {
 
@@ -22,10 +22,6 @@ struct TextureMapping {
 
     /// Of the box |q| <= half in object space. A box that is wound or turned bulges between its corners: from
     /// samples.
-    struct Bounds {
-        glm::dvec3 lowest{0}, highest{0};
-        double stretch = 0; // of an axis of texture space, the largest
-    };
     Bounds boundsOf(const glm::dvec3& half) const;
 };
 

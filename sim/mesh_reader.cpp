@@ -72,7 +72,7 @@ Format formatOfContent(std::string_view bytes) {
 }
 
 std::string firstBytes(std::string_view bytes) {
-    return detail::inQuotes(bytes.substr(0, bytes.find('\n')));
+    return detail::quotedWord(bytes.substr(0, bytes.find('\n')));
 }
 
 Result<std::string> readWhole(const std::filesystem::path& file) {

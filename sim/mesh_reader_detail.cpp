@@ -56,7 +56,7 @@ bool LineReader::cut() {
     return true;
 }
 
-std::string inQuotes(std::string_view word) {
+std::string quotedWord(std::string_view word) {
     std::string text = "'";
     for (const char c : word.substr(0, 24))
         text += c >= ' ' && c <= '~' ? c : '.';
@@ -77,18 +77,18 @@ std::optional<double> parseNumber(std::string_view word, std::string& why) {
     double value = 0;
     const auto [stop, code] = std::from_chars(digits.data(), end, value);
     if (code == std::errc::result_out_of_range) {
-        why = inQuotes(word) + " is outside of what a 64-bit number holds; scale the mesh";
+        why = quotedWord(word) + " is outside of what a 64-bit number holds; scale the mesh";
         return {};
     }
     if (code == std::errc() && stop == end && std::isfinite(value))
         return value;
     if (code == std::errc() && stop == end)
-        why = inQuotes(word) + " is not a finite number; repair the mesh where it was made";
+        why = quotedWord(word) + " is not a finite number; repair the mesh where it was made";
     else if (code == std::errc() && *stop == ',')
-        why = inQuotes(word) +
+        why = quotedWord(word) +
               " has a comma in it; write decimal points (1.5, not 1,5) and part numbers by blanks";
     else
-        why = inQuotes(word) + " is not a number; export the mesh again";
+        why = quotedWord(word) + " is not a number; export the mesh again";
     return {};
 }
 
@@ -99,11 +99,11 @@ std::optional<std::int64_t> parseInteger(std::string_view word, std::int64_t low
     std::int64_t value = 0;
     const auto [stop, code] = std::from_chars(digits.data(), end, value);
     if (stop != end || code == std::errc::invalid_argument) {
-        why = inQuotes(word) + " is not a whole number; export the mesh again";
+        why = quotedWord(word) + " is not a whole number; export the mesh again";
         return {};
     }
     if (code == std::errc::result_out_of_range || value < lowest || value > highest) {
-        why = inQuotes(word) + " is outside of " + std::to_string(lowest) + " .. " + std::to_string(highest) +
+        why = quotedWord(word) + " is outside of " + std::to_string(lowest) + " .. " + std::to_string(highest) +
               "; export the mesh again";
         return {};
     }

@@ -51,7 +51,7 @@ private:
 };
 
 /// A word as it stands in a message: quoted, at most 24 characters, unprintable ones as dots.
-std::string inQuotes(std::string_view word);
+std::string quotedWord(std::string_view word);
 
 /// A finite number. Empty if it is none; then `why` says so, with a hint ("'1,5' has a decimal comma;
 /// write 1.5").

@@ -33,9 +33,9 @@ public:
             } else if (keyword == "f") {
                 SEROSA_TRY(readFace());
             } else if (std::any_of(kFreeForm.begin(), kFreeForm.end(), isKeyword)) {
-                return error("free-form geometry (" + inQuotes(keyword) + ") is not read; export triangles");
+                return error("free-form geometry (" + quotedWord(keyword) + ") is not read; export triangles");
             } else if (std::none_of(kPassedOver.begin(), kPassedOver.end(), isKeyword)) {
-                return error("unknown keyword " + inQuotes(keyword) +
+                return error("unknown keyword " + quotedWord(keyword) +
                              "; remove the line, or export the mesh again");
             }
         }
@@ -84,7 +84,7 @@ private:
             values[i] = *value;
         }
         if (count == 4 && values[3] != 1)
-            return error("a weighted vertex (w = " + inQuotes(words_[4]) +
+            return error("a weighted vertex (w = " + quotedWord(words_[4]) +
                          ") is not read; export without weights");
         if (!mesh_.positions.empty() && (count == 6) != !mesh_.colours.empty())
             return error("some vertices have colours and others have none; export all of them alike");
@@ -94,7 +94,7 @@ private:
             for (int i = 0; i < 3; ++i) {
                 const double channel = values[static_cast<std::size_t>(3 + i)];
                 if (channel < 0 || channel > 1)
-                    return error("the colour value " + inQuotes(words_[static_cast<std::size_t>(4 + i)]) +
+                    return error("the colour value " + quotedWord(words_[static_cast<std::size_t>(4 + i)]) +
                                  " is outside of 0 .. 1; scale the colours");
                 colour[i] = static_cast<std::uint8_t>(std::lround(channel * 255));
             }
@@ -169,7 +169,7 @@ private:
                     if (!value)
                         return error(why);
                     if (*value == 0)
-                        return error("a face has the index 0 in " + inQuotes(words_[i]) +
+                        return error("a face has the index 0 in " + quotedWord(words_[i]) +
                                      "; OBJ counts from 1, export the mesh again");
                     if (part == 0)
                         SEROSA_TRY(addCorner(*value));
@@ -179,7 +179,7 @@ private:
                 if (slash == std::string_view::npos)
                     break;
                 if (part == 2)
-                    return error("the corner " + inQuotes(words_[i]) +
+                    return error("the corner " + quotedWord(words_[i]) +
                                  " has too many slashes; write vertex/texture/normal");
                 rest.remove_prefix(slash + 1);
             }

@@ -59,7 +59,7 @@ public:
             } else if (words[0] == "property" && !header_.elements.empty()) {
                 SEROSA_TRY(readProperty(header_.elements.back()));
             } else {
-                return error("unexpected " + inQuotes(words[0]) +
+                return error("unexpected " + quotedWord(words[0]) +
                              " in the header (format, element, property, comment, end_header, in this "
                              "order); export the mesh again");
             }
@@ -88,7 +88,7 @@ private:
         else if (words[1] == "binary_big_endian")
             header_.encoding = PlyEncoding::bigEndian;
         else
-            return error("unknown format " + inQuotes(words[1]) +
+            return error("unknown format " + quotedWord(words[1]) +
                          "; use ascii, binary_little_endian or binary_big_endian");
         return {};
     }
@@ -103,7 +103,7 @@ private:
             return error(why);
         for (const auto& element : header_.elements)
             if (element.name == words[1])
-                return error("a second element " + inQuotes(words[1]) + "; export the mesh again");
+                return error("a second element " + quotedWord(words[1]) + "; export the mesh again");
         header_.elements.push_back({std::string(words[1]), static_cast<std::size_t>(*count), {}});
         return {};
     }
@@ -117,20 +117,20 @@ private:
                 "expected property TYPE NAME or property list TYPE TYPE NAME; export the mesh again");
         const auto type = typeOf(words[words.size() - 2]);
         if (!type)
-            return error("unknown type " + inQuotes(words[words.size() - 2]) +
+            return error("unknown type " + quotedWord(words[words.size() - 2]) +
                          "; use float, double, int, uchar and the like");
         property.type = *type;
         property.name = words.back();
         if (property.isList) {
             const auto lengthType = typeOf(words[2]);
             if (!lengthType || isFloating(*lengthType))
-                return error("a list's length has the type " + inQuotes(words[2]) +
+                return error("a list's length has the type " + quotedWord(words[2]) +
                              "; it takes a whole one such as uchar");
             property.lengthType = *lengthType;
         }
         for (const auto& other : element.properties)
             if (other.name == property.name)
-                return error("a second property " + inQuotes(property.name) + " of " + element.name +
+                return error("a second property " + quotedWord(property.name) + " of " + element.name +
                              "; export the mesh again");
         element.properties.push_back(property);
         return {};
@@ -208,7 +208,7 @@ private:
                     rowBytes += text ? 6 : 3 * plySize(property.type);
             }
             if (rowBytes == 0 && element.count > 0)
-                return error("the element " + inQuotes(element.name) +
+                return error("the element " + quotedWord(element.name) +
                              " has rows but no properties; remove it");
             if (element.count > 0 && element.count > left / rowBytes)
                 return error(

@@ -110,7 +110,7 @@ public:
         std::size_t facets = 0;
         while (reader_.nextWithWords()) {
             if (!is(0, "solid"))
-                return error("expected solid, found " + inQuotes(reader_.words()[0]) +
+                return error("expected solid, found " + quotedWord(reader_.words()[0]) +
                              "; remove what follows endsolid");
             const std::size_t solidLine = reader_.line();
             while (true) {
@@ -146,7 +146,7 @@ private:
     }
 
     Error unexpected(const std::string& expected) const {
-        return error("expected " + expected + ", found " + inQuotes(reader_.words()[0]) + " and " +
+        return error("expected " + expected + ", found " + quotedWord(reader_.words()[0]) + " and " +
                      std::to_string(reader_.words().size() - 1) + " more words; export the mesh again");
     }
 

@@ -88,7 +88,7 @@ public:
         type_ = type;
         size_ = sizeOfType(type);
         if (binary_ && size_ == 0)
-            return error(what + " of type " + inQuotes(type) +
+            return error(what + " of type " + quotedWord(type) +
                          " are not read from binary files; export them as float and int, or as text");
         if (binary_) {
             std::string_view rest;
@@ -188,7 +188,7 @@ public:
             else if (section == "lines" || section == "vertices")
                 SEROSA_TRY(refuseCells(section));
             else
-                return in_.error("unknown section " + inQuotes(word) +
+                return in_.error("unknown section " + quotedWord(word) +
                                  " (POINTS, POLYGONS, TRIANGLE_STRIPS, POINT_DATA, CELL_DATA); export the "
                                  "surface alone as POLYDATA");
         }
@@ -204,11 +204,11 @@ private:
         std::string_view text;
         std::string why;
         if (!in_.line(text) || !text.starts_with(kMagic))
-            return in_.error("wrong magic: a legacy VTK file starts with " + inQuotes(kMagic) +
-                             ", this one with " + inQuotes(text) + "; export it as legacy VTK");
+            return in_.error("wrong magic: a legacy VTK file starts with " + quotedWord(kMagic) +
+                             ", this one with " + quotedWord(text) + "; export it as legacy VTK");
         const auto version = parseNumber(text.substr(kMagic.size()), why);
         if (!version || !(*version >= 1 && *version < 6))
-            return in_.error("version " + inQuotes(text.substr(kMagic.size())) +
+            return in_.error("version " + quotedWord(text.substr(kMagic.size())) +
                              " of legacy VTK is not known (1 to 5 are); export an older one");
         if (!in_.line(text))
             return in_.error("the file ends before its title; it is cut off, export it again");
@@ -216,14 +216,14 @@ private:
         if (lowered(encoding) == "binary")
             in_.setBinary();
         else if (lowered(encoding) != "ascii")
-            return in_.error(inQuotes(encoding) +
+            return in_.error(quotedWord(encoding) +
                              " where ASCII or BINARY should stand; export the mesh again");
         const std::string_view dataset = in_.word();
         if (lowered(dataset) != "dataset")
-            return in_.error(inQuotes(dataset) + " where DATASET should stand; export the mesh again");
+            return in_.error(quotedWord(dataset) + " where DATASET should stand; export the mesh again");
         const std::string_view kind = in_.word();
         if (lowered(kind) != "polydata")
-            return in_.error("the dataset is " + inQuotes(kind) +
+            return in_.error("the dataset is " + quotedWord(kind) +
                              ", not POLYDATA; extract its surface and save that");
         return {};
     }
@@ -310,7 +310,7 @@ private:
                              std::to_string(cornerCount) + " corners were announced; export the mesh again");
         const std::string_view word = in_.word();
         if (lowered(word) != "connectivity")
-            return in_.error(inQuotes(word) + " where CONNECTIVITY should stand; export the mesh again");
+            return in_.error(quotedWord(word) + " where CONNECTIVITY should stand; export the mesh again");
         const std::string cornerType = lowered(in_.word());
         SEROSA_TRY(in_.begin(cornerCount, cornerType, "corners"));
         for (std::size_t i = 0; i + 1 < offsets.size(); ++i)

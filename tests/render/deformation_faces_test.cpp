@@ -81,7 +81,7 @@ TEST(DeformationFaces, SeamsLieWhereNothingMoves) {
     const StageBox box = StageBox::of(warp, examineFaces(warp, ball(0.01)), 0.006);
     EXPECT_EQ(box.seamLow, glm::dvec3(0.003, 0.006, 0.006));
     EXPECT_EQ(box.seamHigh, glm::dvec3(0.003, 0, 0.006));
-    const TextureMapping::Bounds bounds = box.mapping.boundsOf(box.half);
+    const Bounds bounds = box.mapping.boundsOf(box.half);
     EXPECT_LT(glm::distance(bounds.lowest, {-0.08, -0.05, -0.04}), 1e-12);
     EXPECT_LT(glm::distance(bounds.highest, {0.08, 0.05, 0.04}), 1e-12);
 }

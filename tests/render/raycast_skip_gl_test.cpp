@@ -16,6 +16,19 @@
 namespace serosa::render {
 namespace {
 
+constexpr double kRadius = 0.04; // m
+
+/// Of a ball. \param band m: exact to here
+Result<DistanceVolume> ballVolume(int samples, double band) {
+    auto mesh = models::makePhantom("ball", 8000);
+    if (!mesh)
+        return mesh.error();
+    for (glm::dvec3& p : mesh->positions)
+        p = kRadius * glm::normalize(p);
+    return DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), samples, 3),
+                                  band);
+}
+
 TEST(Stretch, IsThatOfScalesAndTurns) {
     const double c = std::cos(0.7), s = std::sin(0.7);
     const glm::dmat3 turn(c, s, 0, -s, c, 0, 0, 0, 1), scale(2, 0, 0, 0, 0.5, 0, 0, 0, 1);
@@ -102,12 +115,7 @@ class GlRaycastSkipTight : public test::GlTest {};
 // A ball that is shown smaller in all directions: what the bound says is how far its wall is. The wall is so
 // thin that whoever goes on by more comes out behind it.
 TEST_F(GlRaycastSkipTight, AThinWallIsNotOverrun) {
-    auto mesh = models::makePhantom("ball", 8000);
-    ASSERT_TRUE(mesh);
-    for (glm::dvec3& p : mesh->positions)
-        p = 0.04 * glm::normalize(p);
-    const auto volume =
-        DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 64, 3), 0.006);
+    const auto volume = ballVolume(64, 0.006);
     ASSERT_TRUE(volume.ok()) << volume.error().message;
     const double half = 0.06, shrinks = 1.6;
     std::vector<glm::dvec4> texels;
@@ -122,7 +130,7 @@ TEST_F(GlRaycastSkipTight, AThinWallIsNotOverrun) {
     auto caster = Raycaster::create(space, *volume);
     ASSERT_TRUE(caster.ok());
     caster->setWarp(Warp{&*texture, {}});
-    const RaycastView view = RaycastView::of(space, 0.8 * mesh->lowest(), 0.8 * mesh->highest(),
+    const RaycastView view = RaycastView::of(space, 0.8 * glm::dvec3(-kRadius), 0.8 * glm::dvec3(kRadius),
                                              {-0.3, -0.8, -0.6}, sim::Projection::perspective, 96, 96);
     for (const Search search : {Search::linear, Search::jacobian}) {
         RaycastLook look;
@@ -147,12 +155,7 @@ TEST_F(GlRaycastSkipTight, AThinWallIsNotOverrun) {
 
 // A thin wall stands in what is cut away, far below the skin: how far that is says nothing of the wall.
 TEST_F(GlRaycastSkipTight, AWallWithinACutIsNotOverrun) {
-    auto mesh = models::makePhantom("ball", 8000);
-    ASSERT_TRUE(mesh);
-    for (glm::dvec3& p : mesh->positions)
-        p = 0.04 * glm::normalize(p);
-    const auto volume =
-        DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 64, 3), 0.006);
+    const auto volume = ballVolume(64, 0.006);
     ASSERT_TRUE(volume.ok()) << volume.error().message;
     constexpr int kTexels = 64, kWall = 33;
     std::vector<glm::dvec4> texels;
@@ -165,7 +168,7 @@ TEST_F(GlRaycastSkipTight, AWallWithinACutIsNotOverrun) {
     auto caster = Raycaster::create(space, *volume);
     ASSERT_TRUE(caster.ok());
     caster->setWarp(Warp{&*texture, {}});
-    const RaycastView view = RaycastView::of(space, mesh->lowest(), mesh->highest(), {-0.9, -0.2, -0.3},
+    const RaycastView view = RaycastView::of(space, glm::dvec3(-kRadius), glm::dvec3(kRadius), {-0.9, -0.2, -0.3},
                                              sim::Projection::perspective, 96, 96);
     const double wall = (kWall + 0.5) * texture->texelSize().x - texture->half().x;
     for (const Search search : {Search::linear, Search::jacobian}) {
@@ -191,12 +194,7 @@ class GlRaycastSkip : public test::GlTest, public ::testing::WithParamInterface<
 
 TEST_P(GlRaycastSkip, ShowsTheSame) {
     const Case& tested = GetParam();
-    auto mesh = models::makePhantom("ball", 8000);
-    ASSERT_TRUE(mesh);
-    for (glm::dvec3& p : mesh->positions)
-        p = 0.04 * glm::normalize(p);
-    const auto volume =
-        DistanceVolume::create(*mesh, VolumeGrid::around(mesh->lowest(), mesh->highest(), 48, 3), 0.012);
+    const auto volume = ballVolume(48, 0.012);
     ASSERT_TRUE(volume.ok()) << volume.error().message;
     const auto texture = DeformationTexture::bake(ballMap(tested.kind), glm::ivec3(40), TexelFormat::half);
     ASSERT_TRUE(texture.ok()) << texture.error().message;
@@ -215,7 +213,7 @@ TEST_P(GlRaycastSkip, ShowsTheSame) {
     for (const auto& [direction, projection] :
          {std::pair{glm::dvec3(-0.3, -0.8, -0.6), sim::Projection::perspective},
           {glm::dvec3(0.6, 0.2, -0.8), sim::Projection::orthographic}}) {
-        const RaycastView view = RaycastView::of(space, 1.3 * mesh->lowest(), 1.3 * mesh->highest(),
+        const RaycastView view = RaycastView::of(space, 1.3 * glm::dvec3(-kRadius), 1.3 * glm::dvec3(kRadius),
                                                  direction, projection, 128, 96);
         RaycastLook look;
         look.solid = tested.solid;
