@@ -96,7 +96,7 @@ ViewDeformation::Said ViewDeformation::begin(const ViewControls& controls, const
     const sim::DeformationKey place = start_.placeAt(time);
     start_.at = place.at;
     start_.keys = {place}; // it stays where the hand leaves it
-    startPointer_ = controls.pointer;
+    startPointer_ = pointer_ = controls.pointer;
     toEye_ = axisOf(camera, 2);
     anchor_ = place.at;
     scale_ = 1;
@@ -205,7 +205,9 @@ ViewDeformation::Said ViewDeformation::follow(ViewControls& controls, const rend
     if (before != controls.box && controls.box) {
         said = begin(controls, camera, window, time);
     } else if (before) {
-        said = apply(dragged(*before, controls, camera, window)); // to where the button was let go, too
+        // To where the button was let go, too; a hand that rests changes nothing.
+        if (std::exchange(pointer_, controls.pointer) != controls.pointer || controls.deeper != 0)
+            said = apply(dragged(*before, controls, camera, window));
         if (!controls.box && !said.isError)
             said = end();
     }

@@ -43,7 +43,7 @@ private:
     std::optional<BoxDrag> wanted_; // of the controls when last seen
     sim::Deformation start_;        // when the drag began
     std::optional<std::size_t> point_;
-    glm::dvec2 startPointer_{0}; // screen units
+    glm::dvec2 startPointer_{0}, pointer_{0}; // screen units: of the drag's begin, when last seen
     glm::dvec3 anchor_{0}, toEye_{0, 0, 1};
     double scale_ = 1; // by the wheel, since
     std::string problem_;
