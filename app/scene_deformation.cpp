@@ -70,7 +70,8 @@ Error SceneDeformation::errorOf(std::size_t i, const std::string& message) const
                  ": deformation: " + message};
 }
 
-Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deformation& one, std::string& note) {
+Result<render::DeformationTexture> SceneDeformation::textureOf(const sim::Deformation& one,
+                                                               std::string& note) {
     const render::TexelFormat format = formatOf(one);
     if (one.kind == sim::DeformationKind::texture)
         return readDeformationTexture(one.file, format);
@@ -231,8 +232,9 @@ Status SceneDeformation::check(std::size_t organ, const sim::TriangleMesh& metre
                                    torn + ": enlarge the box, or move it until these faces lie outside");
             const std::string ending = render::endingFaces(faces);
             if (!ending.empty())
-                notes_[i].placed = "deformation: what the " + name(i) + " moves ends at a face of its box: " +
-                                   ending + ": enlarge the box for all of it to be seen";
+                notes_[i].placed = "deformation: what the " + name(i) +
+                                   " moves ends at a face of its box: " + ending +
+                                   ": enlarge the box for all of it to be seen";
             const auto box = warp.mapping.boundsOf(warp.texture->half());
             met_[i] = met_[i] || (glm::all(glm::lessThan(box.lowest, highest)) &&
                                   glm::all(glm::lessThan(lowest, box.highest)));

@@ -28,7 +28,7 @@ std::string placeText(const glm::dvec3& at) {
 
 /// "+y ..., -z ...": of those that are meant, what `say` says.
 template <class Say>
-std::string facesText(const std::array<FaceOfBox, 6>& faces, bool FaceOfBox::* meant, const Say& say) {
+std::string facesText(const std::array<FaceOfBox, 6>& faces, bool FaceOfBox::*meant, const Say& say) {
     static const char* const kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
     std::string text;
     for (std::size_t i = 0; i < 6; ++i)

@@ -103,8 +103,8 @@ std::optional<std::int64_t> parseInteger(std::string_view word, std::int64_t low
         return {};
     }
     if (code == std::errc::result_out_of_range || value < lowest || value > highest) {
-        why = quotedWord(word) + " is outside of " + std::to_string(lowest) + " .. " + std::to_string(highest) +
-              "; export the mesh again";
+        why = quotedWord(word) + " is outside of " + std::to_string(lowest) + " .. " +
+              std::to_string(highest) + "; export the mesh again";
         return {};
     }
     return value;

@@ -33,7 +33,8 @@ public:
             } else if (keyword == "f") {
                 SEROSA_TRY(readFace());
             } else if (std::any_of(kFreeForm.begin(), kFreeForm.end(), isKeyword)) {
-                return error("free-form geometry (" + quotedWord(keyword) + ") is not read; export triangles");
+                return error("free-form geometry (" + quotedWord(keyword) +
+                             ") is not read; export triangles");
             } else if (std::none_of(kPassedOver.begin(), kPassedOver.end(), isKeyword)) {
                 return error("unknown keyword " + quotedWord(keyword) +
                              "; remove the line, or export the mesh again");

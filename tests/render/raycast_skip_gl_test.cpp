@@ -168,8 +168,8 @@ TEST_F(GlRaycastSkipTight, AWallWithinACutIsNotOverrun) {
     auto caster = Raycaster::create(space, *volume);
     ASSERT_TRUE(caster.ok());
     caster->setWarp(Warp{&*texture, {}});
-    const RaycastView view = RaycastView::of(space, glm::dvec3(-kRadius), glm::dvec3(kRadius), {-0.9, -0.2, -0.3},
-                                             sim::Projection::perspective, 96, 96);
+    const RaycastView view = RaycastView::of(space, glm::dvec3(-kRadius), glm::dvec3(kRadius),
+                                             {-0.9, -0.2, -0.3}, sim::Projection::perspective, 96, 96);
     const double wall = (kWall + 0.5) * texture->texelSize().x - texture->half().x;
     for (const Search search : {Search::linear, Search::jacobian}) {
         RaycastLook look;
