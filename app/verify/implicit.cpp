@@ -88,7 +88,7 @@ Status stiffCapsule(const VerifyOptions& options, CheckList& checks) {
         const sim::SolverSetup setup = checkedSetup(options, body->setup);
         SEROSA_ASSIGN(const auto solver, makeSolver(name, setup));
         const bool whole = name == "cpu"; // textures are stepped by the CPU where there is no GPU
-        const int count = whole ? frames : options.full ? 1000 : 60;
+        const int count = whole ? frames : options.full ? 1000 : 30;
         const Course course = play(setup, *solver, count);
         const std::string of = "capsule, " + std::to_string(count) + " frames, " + name + ": ";
         checks.equalAbs(of + "frames that are not finite", course.notFinite, 0, 0, "");

@@ -21,7 +21,9 @@ namespace {
 constexpr std::uint32_t kFirstSeed = 1000;
 constexpr std::size_t kMostNodes = 3000;
 constexpr int kFiner = 4;
-constexpr std::uint32_t kOnGpu = 20; // every so many scenarios one is stepped in textures
+// One of every so many scenarios is stepped in textures. This remainder begins with an organ whose tools are
+// slow (1014): fast ones take up to 32 steps a frame, which are a matter of minutes without a GPU.
+constexpr std::uint32_t kOnGpu = 20, kOnGpuRemainder = 14;
 
 struct Outcome {
     std::uint32_t seed = 0;
@@ -67,7 +69,7 @@ Result<Outcome> playSeed(const VerifyOptions& options, std::uint32_t seed, int f
                          int finer = 1) {
     SEROSA_ASSIGN(const std::unique_ptr<RandomScenario> scenario,
                   randomScenario(seed, kMostNodes, frames, Wildness::damped, sim::StepMethod::implicit));
-    if ((seed % kOnGpu == 0) != onGpu)
+    if ((seed % kOnGpu == kOnGpuRemainder) != onGpu)
         return Outcome{};
     scenario->step.stepsPerFrame *= finer;
     scenario->setup.timeStep /= finer;

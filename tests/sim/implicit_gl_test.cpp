@@ -39,10 +39,11 @@ struct Handled {
     Handled(const Handled&) = delete;
     Handled& operator=(const Handled&) = delete;
 
+    /// One step and three times ten, the last ones cut.
     std::vector<LatticeState> run(sim::Solver& solver) const {
         std::vector<LatticeState> states;
         solver.setState(sim::startState(setup));
-        for (int part = 0; part < 6; ++part) {
+        for (int part = 0; part < 4; ++part) {
             solver.advance(part == 0 ? 1 : 10);
             if (part == 2) {
                 EXPECT_TRUE(solver.cut(stroke).ok());
@@ -86,14 +87,13 @@ TEST_F(GlImplicit, aStepIsTheProcessorsOnBothLayouts) {
 }
 
 TEST_F(GlImplicit, handlesAllThatMaterialsCanBe) {
-    sim::Tissue soft, recovering, toe = test::threeMaterials(), fibres = test::threeMaterials();
-    soft.young = 20000;
+    sim::Tissue recovering, toe = test::threeMaterials(), fibres = test::threeMaterials();
     recovering.recovery = true;
     toe.recovery = false;
     toe.others.resize(1);
     sim::Tissue pressed;
     pressed.poisson = 0.45;
-    for (const sim::Tissue& of : {soft, recovering, pressed, toe, fibres, stiffMaterials()}) {
+    for (const sim::Tissue& of : {recovering, pressed, toe, fibres, stiffMaterials()}) {
         sim::Tissue tissue = of;
         if (tissue.others.empty())
             tissue.others.assign(2, static_cast<const sim::Material&>(tissue));
