@@ -324,7 +324,11 @@ void addView(CLI::App& app, std::function<Result<int>()>& action) {
     command->footer(
         "Keys: space pause, . step, r restart, 1 2 3 4 mapping, l lattice, w wires, n normals, s F12 "
         "screenshots,\n"
-        "F5 shaders, c camera, p panel, q quit. Mouse: drag turns, right drag moves, wheel zooms.\n"
+        "F5 shaders, c camera, p panel, d next deformation, q quit. Mouse: drag turns, right drag moves, "
+        "wheel zooms;\n"
+        "ctrl + drag holds tissue, ctrl + right drag pushes it; ctrl + shift + drag moves a deformation, "
+        "with the\n"
+        "right button turns it, with the wheel scales it.\n"
         "Examples:\n"
         "  serosa view heart.toml\n"
         "  serosa view --model liver.stl --length-unit mm --nodes 5000\n"

@@ -106,6 +106,7 @@ Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector
     if (!deformation_)
         return {};
     SEROSA_TRY(deformation_->checkMet());
+    SEROSA_TRY(deformation_->checkSizes(render::Raycaster::mostTexels()));
     SEROSA_TRY(place(0));
     for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
         SEROSA_TRY(renderer.openBox(i, surfaceBox(i, 0), *surfaces[i].lattice, *surfaces[i].metres,
@@ -150,7 +151,7 @@ std::vector<render::Raycaster*> ImplicitOrgans::casters(const std::vector<const 
     for (std::size_t i = 0; i < organs_.size(); ++i) {
         if (organs_[i].lattice) {
             const Status updated = organs_[i].lattice->update(*states[i], drawn.cutMask(i), organs_[i].steps);
-            SEROSA_CHECK(updated.ok(), "the driver compiles GLSL 4.5");
+            SEROSA_CHECK(updated.ok(), "the driver compiles GLSL 4.5: " + updated.error().message);
         }
         all.push_back(organs_[i].caster.get());
     }

@@ -46,10 +46,16 @@ render::TextureMapping mappingOf(const sim::Deformation& one, double time) {
     return mapping;
 }
 
+/// When it is looked at: at its keys, and on the way between them.
 std::vector<double> timesOf(const sim::Deformation& one) {
+    constexpr int kBetween = 8;
     std::vector<double> times;
-    for (const sim::DeformationKey& key : one.keys)
+    for (const sim::DeformationKey& key : one.keys) {
+        const double before = times.empty() ? key.time : times.back();
+        for (int i = 1; i < kBetween && !times.empty(); ++i)
+            times.push_back(before + (key.time - before) * i / kBetween);
         times.push_back(key.time);
+    }
     return times.empty() ? std::vector<double>{0} : times;
 }
 
@@ -252,6 +258,17 @@ Status SceneDeformation::checkMet() const {
     return {};
 }
 
+Status SceneDeformation::checkSizes(int most) const {
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        const glm::ivec3 size = textures_[i] ? textures_[i]->size() : glm::ivec3(0);
+        if (const int longest = std::max({size.x, size.y, size.z}); longest > most)
+            return errorOf(i, "is of " + std::to_string(longest) +
+                                  " texels along a side: this machine's OpenGL has at most " +
+                                  std::to_string(most) + ": resample the file");
+    }
+    return {};
+}
+
 Status SceneDeformation::link(const std::vector<std::size_t>& some, double time, Chain& made) const {
     bool together = true;
     std::vector<render::Warp> warps;
@@ -263,8 +280,10 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
                    one.mapping.objectFromLocal == first.mapping.objectFromLocal &&
                    one.mapping.cylinderRadius == first.mapping.cylinderRadius;
     }
-    made.time = time;
-    made.version = version_;
+    const auto isUpToDate = [&] {
+        made.time = time;
+        made.version = version_;
+    };
     if (together) {
         render::DeformationTexture sum = *warps.front().texture;
         for (std::size_t i = 1; i < some.size(); ++i) {
@@ -275,6 +294,7 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
         }
         made.texture = std::move(sum);
         made.mapping = warps.front().mapping;
+        isUpToDate();
         return {};
     }
     Result<render::ChainedWarp> chained = render::chain(warps, formatOf(scene_.deformations[some.front()]));
@@ -282,6 +302,7 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
         return errorOf(some.front(), chained.error().message);
     made.texture = std::move(chained->texture);
     made.mapping = chained->mapping;
+    isUpToDate();
     return {};
 }
 

@@ -30,6 +30,8 @@ public:
     Status check(std::size_t organ, const sim::TriangleMesh& metres);
     /// After check() of all organs.
     Status checkMet() const;
+    /// Errors: a texture of more texels along a side.
+    Status checkSizes(int most) const;
 
     /// What the pixel does: an organ's warp at a time; it points into this, until the next call for another
     /// time. Nothing: none of the deformations is of this organ.

@@ -247,8 +247,11 @@ private:
         redraws_ = std::max(0, redraws_ - 1);
         lastDraw_ = Clock::now();
         render::View view = currentView();
-        if (const Status moved = parts_.implicit.moveTo(player_.time(), *parts_.renderer); !moved.ok())
-            say(moved.error().message, true);
+        const Status moved = parts_.implicit.moveTo(player_.time(), *parts_.renderer);
+        const std::string wrong = moved.ok() ? "" : moved.error().message;
+        if (!wrong.empty() && wrong != lastWrong_) // not in each picture again
+            say(wrong, true);
+        lastWrong_ = wrong;
         view.casters = parts_.implicit.casters(parts_.textures(), *parts_.renderer);
         parts_.renderer->draw(parts_.textures(), view);
         glFinish();
@@ -310,6 +313,7 @@ private:
     ViewDeformation deformation_{parts_};
     bool wasPaused_ = false;
     int redraws_ = kRedrawsAfterEvent;
+    std::string lastWrong_; // of deformations
     Clock::time_point lastLook_ = Clock::now(), lastDraw_{}, paceStart_ = Clock::now();
     int paceFrame_ = 0;
 };

@@ -9,8 +9,8 @@ namespace serosa::render {
 
 namespace {
 
-constexpr int kSamples = 24;   // along a side of a face
-constexpr double kStill = 0.1; // texels
+constexpr int kLeastSamples = 24, kMostSamples = 128; // along a side of a face: one a texel
+constexpr double kStill = 0.1;                        // texels
 
 double coarsest(const DeformationTexture& texture) {
     const glm::dvec3 texel = texture.texelSize();
@@ -55,12 +55,13 @@ std::array<FaceOfBox, 6> examineFaces(const Warp& warp,
         if (axis == 2 && meetsItself(warp))
             continue;
         FaceOfBox& one = faces[std::size_t(face)];
-        for (int i = 0; i < kSamples * kSamples; ++i) {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const glm::ivec3 count = glm::clamp(warp.texture->size(), kLeastSamples, kMostSamples);
+        for (int i = 0; i < count[u] * count[v]; ++i) {
             glm::dvec3 q;
             q[axis] = (face % 2 == 0 ? -1 : 1) * (1 - 1e-9) * half[axis];
-            const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-            q[u] = (2 * (i % kSamples + 0.5) / kSamples - 1) * half[u];
-            q[v] = (2 * (i / kSamples + 0.5) / kSamples - 1) * half[v];
+            q[u] = (2 * (i % count[u] + 0.5) / count[u] - 1) * half[u];
+            q[v] = (2 * (i / count[u] + 0.5) / count[v] - 1) * half[v];
             const glm::dvec4 read = warp.texture->sample(q);
             const double moved = glm::length(glm::dvec3(read));
             const bool cut = read.w < 0.5;

@@ -106,7 +106,7 @@ Result<DistanceVolume> DistanceVolume::create(const sim::TriangleMesh& mesh, con
     SEROSA_ASSIGN(gpu::Program finish, program("distance_finish.comp", {}));
     const auto barrier = [] {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                        GL_TEXTURE_FETCH_BARRIER_BIT);
+                        GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     };
     least.clear(0x7f800000u); // infinity
     owner.clear(0xffffffffu);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace serosa::render {
@@ -19,8 +20,32 @@ struct WarpCell {
 };
 static_assert(sizeof(WarpCell) == 48);
 
-constexpr std::size_t kBoxBytes =
-    6 * sizeof(std::uint32_t) + 2 * sizeof(std::uint32_t) + 2 * sizeof(glm::vec4);
+/// As shaders/lattice_warp_box.glsl has it.
+struct WarpBox {
+    std::array<std::uint32_t, 6> bound;
+    std::uint32_t sum;
+    float way;
+    glm::vec4 lowest, step;
+    std::array<std::uint32_t, 3 * SRS_WARP_BINS> nodesIn;
+};
+static_assert(offsetof(WarpBox, lowest) == 32 && offsetof(WarpBox, nodesIn) == 64);
+
+constexpr int kMostSides = 2;           // of cuts
+constexpr double kMostStep = 1.5;       // of a voxel: times that at rest
+constexpr std::int64_t kRoom = 1 << 20; // voxels
+
+/// Voxels along each axis: what the organ takes at rest, and half of the longest side where all of it is not
+/// too much: what is thin may turn or bend. A voxel to spare on either side.
+glm::ivec3 sizeOf(const glm::dvec3& extent, double voxels) {
+    const glm::ivec3 rest = glm::ivec3(glm::ceil(extent * voxels)) + 3;
+    glm::ivec3 size = rest;
+    for (int room = std::max({rest.x, rest.y, rest.z}) / 2; room > 0; --room) {
+        size = glm::max(rest, room);
+        if (std::int64_t(size.x) * size.y * size.z <= kRoom)
+            break;
+    }
+    return size;
+}
 
 } // namespace
 
@@ -52,17 +77,19 @@ Result<LatticeWarp> LatticeWarp::create(const sim::Lattice& lattice, const sim::
         low = node ? glm::min(low, lattice.restPosition(node)) : lattice.restPosition(node);
         high = node ? glm::max(high, lattice.restPosition(node)) : lattice.restPosition(node);
     }
-    const glm::ivec3 size = glm::ivec3(glm::ceil((high - low) * voxels)) + 3;
+    const glm::ivec3 size = sizeOf(high - low, voxels);
     GLint most = 0;
     glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
-    if (std::max({size.x, size.y, size.z}) > most)
-        return Error{"a displacement texture of " + std::to_string(std::max({size.x, size.y, size.z})) +
+    const int longest = std::max({size.x, size.y, kMostSides * size.z});
+    if (longest > most)
+        return Error{"a displacement texture of " + std::to_string(longest) +
                      " voxels along a side: the context has at most " + std::to_string(most)};
     made.cellCount_ = cells.size();
     made.nodeCount_ = nodes.size();
     made.cells_ = gpu::Buffer("cells of a displacement", std::span<const WarpCell>(cells));
     made.nodes_ = gpu::Buffer("nodes of a displacement", std::span<const std::uint32_t>(nodes));
-    made.box_ = gpu::Buffer("box of a displacement", kBoxBytes, nullptr);
+    made.box_ = gpu::Buffer("box of a displacement", sizeof(WarpBox), nullptr);
+    made.mostStep_ = kMostStep / voxels;
     made.sides_[0] = gpu::Texture3D("displacement of a lattice", GL_RGBA32F, size);
     made.owner_ = gpu::Texture3D("owners of a displacement's voxels", GL_R32UI, size);
     made.lattice_ = &lattice;
@@ -79,6 +106,9 @@ Result<LatticeWarp::Programs> LatticeWarp::compile(const std::vector<gpu::Shader
     const gpu::ShaderLibrary library;
     Programs made;
     SEROSA_ASSIGN(made.bounds, gpu::Program::create(library, {"lattice_warp_bounds.comp"}, defines));
+    std::vector<gpu::ShaderDefine> bins = defines;
+    bins.push_back({"WARP_BINS", "1"});
+    SEROSA_ASSIGN(made.bins, gpu::Program::create(library, {"lattice_warp_bounds.comp"}, bins));
     SEROSA_ASSIGN(made.claim, gpu::Program::create(library, {"lattice_warp_claim.comp"}, defines));
     SEROSA_ASSIGN(made.write, gpu::Program::create(library, {"lattice_warp_write.comp"}, defines));
     return made;
@@ -90,7 +120,8 @@ Status LatticeWarp::openSides() {
     cut_.emplace(std::move(programs));
     sideNodes_.emplace(std::move(nodes));
     sides_[1] = gpu::Texture3D("displacement below cuts", GL_RGBA32F, size());
-    owner_ = gpu::Texture3D("owners of a displacement's voxels", GL_R32UI, size() * glm::ivec3(1, 1, 2));
+    owner_ =
+        gpu::Texture3D("owners of a displacement's voxels", GL_R32UI, size() * glm::ivec3(1, 1, kMostSides));
     return {};
 }
 
@@ -112,17 +143,23 @@ Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask,
     const int sides = mask ? 2 : 1;
     const auto barrier = [] {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                        GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+                        GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                        GL_TEXTURE_UPDATE_BARRIER_BIT);
     };
-    constexpr std::uint32_t kEmpty[8] = {0xffffffffu, 0xffffffffu, 0xffffffffu, 0, 0, 0, 0, 0};
-    box_.upload(0, sizeof(kEmpty), kEmpty);
+    WarpBox empty{};
+    empty.bound = {0xffffffffu, 0xffffffffu, 0xffffffffu, 0, 0, 0};
+    barrier(); // pictures before, which asked for it
+    box_.upload(0, sizeof(empty), &empty);
     owner_.clear(0xffffffffu);
-    for (int side = 0; side < sides; ++side) {
-        programs.bounds.set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
-        programs.bounds.texture("t_positions", !mask       ? state.positions()
-                                               : side == 0 ? sideNodes_->above()
-                                                           : sideNodes_->below());
-        programs.bounds.dispatch({int(nodeCount_), 1, 1});
+    for (gpu::Program* const program : {&programs.bounds, &programs.bins}) {
+        program->set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
+        for (int side = 0; side < sides; ++side) {
+            program->texture("t_positions", !mask       ? state.positions()
+                                            : side == 0 ? sideNodes_->above()
+                                                        : sideNodes_->below());
+            program->dispatch({int(nodeCount_), 1, 1});
+        }
+        barrier();
     }
     if (steps > 0) {
         ways_.set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
@@ -130,7 +167,7 @@ Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask,
         ways_.dispatch({int(nodeCount_), 1, 1});
     }
     barrier();
-    frame_.set("u_size", size()).buffer("b_box", box_);
+    frame_.set("u_size", size()).set("u_mostStep", float(mostStep_)).buffer("b_box", box_);
     frame_.set("u_wayShare", float(steps / (SRS_WAY_UNITS * double(nodeCount_))));
     frame_.dispatch({1, 1, 1});
     barrier();
@@ -163,7 +200,7 @@ LatticeWarp::Read LatticeWarp::read(std::size_t side) const {
     glFinish();
     Read read;
     glm::vec4 frame[2];
-    box_.download(kBoxBytes - sizeof(frame), sizeof(frame), frame);
+    box_.download(offsetof(WarpBox, lowest), sizeof(frame), frame);
     read.lowest = glm::dvec3(frame[0]);
     read.step = glm::dvec3(frame[1]);
     read.texels.resize(std::size_t(size().x) * std::size_t(size().y) * std::size_t(size().z));

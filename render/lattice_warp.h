@@ -4,7 +4,8 @@
 //
 // The field takes a place of a cell to where its eight corners carry it, trilinearly. Its inverse:
 // 1. bounds of the nodes (and how far they go in a frame, in the mean), which the texture's box holds with a
-// voxel to spare;
+//    voxel to spare. Where a piece fell off and a voxel would be more than half again as long as at rest, it
+//    holds the place where most nodes lie, and what is beyond is not shown;
 // 2. each cell goes over the voxels near it, inverts the trilinear map there (Newton), and claims those that
 //    lie in it or, with less right, less than SRS_WARP_REACH of a cell beside it (an atomic minimum over how
 //    far outside, then the cell's index): where tissue folds, the cell that holds a point first has it;
@@ -63,7 +64,7 @@ public:
 
 private:
     struct Programs {
-        gpu::Program bounds, claim, write;
+        gpu::Program bounds, bins, claim, write;
     };
     LatticeWarp() = default;
     static Result<Programs> compile(const std::vector<gpu::ShaderDefine>& defines);
@@ -81,6 +82,7 @@ private:
     std::optional<Programs> cut_;
     std::optional<SideNodes> sideNodes_;
     std::size_t cellCount_ = 0, nodeCount_ = 0;
+    double mostStep_ = 0; // of a voxel, lattice units
 };
 
 } // namespace serosa::render

@@ -305,7 +305,8 @@ Status Raycaster::drawBox(const Frame& frame, const RaycastLook& look, bool prob
 
 void Raycaster::drawFaces(const RaycastLook& look, bool blended) const {
     glEnable(GL_CULL_FACE);
-    glCullFace(GL_FRONT); // the far faces: a camera may be inside
+    glCullFace(GL_FRONT);     // the far faces: a camera may be inside
+    glEnable(GL_DEPTH_CLAMP); // also where they lie beyond what the camera sees
     if (blended) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -324,7 +325,14 @@ void Raycaster::drawFaces(const RaycastLook& look, bool blended) const {
     }
     if (blended)
         glDisable(GL_BLEND);
+    glDisable(GL_DEPTH_CLAMP);
     glCullFace(GL_BACK);
+}
+
+int Raycaster::mostTexels() {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    return most;
 }
 
 Status Raycaster::draw(const Frame& frame, const RaycastLook& look) {

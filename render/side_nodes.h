@@ -4,13 +4,16 @@
 // anew on the GPU from a state and the sides that the mask knows (render/cut_mask.h):
 //
 // - a node on the side, or far from every cut, lies where it is;
-// - one on the other side, or that no spring holds any more, lies where the side's nodes within two grid
+// - one on the other side, or that no spring holds to either any more, lies where the side's nodes within two
+// grid
 //   steps would have it: weighted least squares of an affine displacement. The more of its springs to the
 //   side are left, the more it is where it is: so the two sides meet where a cut ends.
 //
 // A cell over one of the textures is whole, whatever crosses it, and neighbouring cells share corners: each
 // side's tissue goes on past the cut without a jump. Sides are those of the nearest cut: where cuts cross,
-// what lies between them follows the nearer one.
+// what lies between them follows the nearer one. A node in the blade's very way (less than SRS_SIDE_ON from
+// it) is of the side to which it lost fewer of its springs, whatever the rounded distance says, and of none
+// where it lost all to both: else a cell would hang between halves that fall apart.
 
 #include "base/result.h"
 #include "gpu/program.h"
@@ -34,8 +37,8 @@ public:
 
 private:
     SideNodes() = default;
-    gpu::Program program_;
-    gpu::Buffer nodes_, grid_;
+    gpu::Program find_, program_;
+    gpu::Buffer nodes_, grid_, sides_;
     gpu::Texture2D above_, below_;
     int count_ = 0;
     glm::ivec3 dims_{0}, centre_{0};

@@ -229,11 +229,11 @@ void SurfaceRenderer::draw(const OrganStates& states, const View& view) {
         view.look.show != sim::Show::implicit || stage == sim::Stage::mesh || stage == sim::Stage::composite;
     for (std::size_t i = 0; i < in.organs.size() && view.look.surface && mesh; ++i)
         in.organs[i].surface.draw(*states[i], frames[i], stageOf(view.look.mapping), view.look.colour);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL); // a ray for each pixel, also where the surface is of wires
     for (std::size_t i = 0; i < view.casters.size() && implicit; ++i) {
         const Status drawn = view.casters[i]->draw(frames[i], raycastLook(view.look));
-        SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5");
+        SEROSA_CHECK(drawn.ok(), "the driver compiles GLSL 4.5: " + drawn.error().message);
     }
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     std::vector<const sim::Lattice*> placements;
     for (const DrawnOrgan& organ : in.organs)
         placements.push_back(&organ.placement);

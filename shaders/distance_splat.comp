@@ -26,7 +26,7 @@ void main() {
             for (int x = low.x; x <= high.x; ++x) {
                 int feature;
                 vec3 p = vec3(x, y, z);
-                float far = distance(p, closestOnTriangle(p, a, b, c, feature));
+                precise float far = distance(p, closestOnTriangle(p, a, b, c, feature));
                 if (far > u_band)
                     continue;
 #ifdef DISTANCE_CLAIM

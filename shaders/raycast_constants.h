@@ -28,7 +28,8 @@
 
 #define SRS_REFINEMENTS 30    // of an interval in which a ray meets something, at most,
 #define SRS_EXACT 0.004       // and until it is so short, of the step: where space was skipped it is long
-#define SRS_MOST_SAMPLES 2048 // of a ray
+#define SRS_MOST_SAMPLES 2048 // of a ray, or
+#define SRS_SAMPLES_A_STEP 4  // so many for each step of its way, before it adapts
 #define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
 #define SRS_MOST_STEP 2.0     // and never longer
 
@@ -52,7 +53,10 @@
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
 #define SRS_WARP_ACROSS 1.1         // spacings: so far beyond a cut its side goes on
 #define SRS_SIDE_ON 0.25            // spacings: a node so near to a cut is as good as on either side of it
+#define SRS_SIDE_LOOSE 0.0          // a side: a node that is left alone between two cuts
 #define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
+#define SRS_WARP_BINS 512           // parts of the nodes' bounds along an axis
+#define SRS_WARP_GAP 3.0            // spacings without a node: a piece fell off
 #define SRS_WARP_STEPS 8            // Newton's
 #define SRS_WARP_GROUP 32
 #define SRS_WAY_UNITS 2048.0 // a lattice unit, of the nodes' ways in a step, which are summed

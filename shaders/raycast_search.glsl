@@ -49,6 +49,7 @@ float refinedPlace(int i, float low, float high, Side below, Side above) {
 
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
+    int most = max(SRS_MOST_SAMPLES, int(SRS_SAMPLES_A_STEP * (end - start) / u_step));
     vec2 slab = textureSlab(from, along);
     float t = start, last = start;
     Place place = placeAt(from + t * along);
@@ -56,9 +57,9 @@ Hit castRay(vec3 from, vec3 along, float start, float end) {
     Advance go = advanceFrom(place, from + t * along, along, t, slab);
     // Searching and refining are loops of their own: a software renderer runs through what a branch holds. For the same
     // reason no place is kept from one turn to the next, but what is asked of it.
-    while (!hit.any && t < end && hit.samples < SRS_MOST_SAMPLES) {
+    while (!hit.any && t < end && hit.samples < most) {
         bool found = false;
-        while (!found && t < end && hit.samples < SRS_MOST_SAMPLES) {
+        while (!found && t < end && hit.samples < most) {
             before = now;
             last = t;
             t = min(t + go.by, end);

@@ -1,51 +1,18 @@
 // Nodes as each side of the blades' cuts carries them (render/side_nodes.h).
 #version 450 core
-#include "shared_constants.h"
+#include "side_nodes.glsl"
+#include "raycast_constants.h"
 layout(local_size_x = 64) in;
 
-layout(std430) restrict readonly buffer b_nodes { uvec4 b_node[]; }; // texel; grid, 10 bits an axis; connections at rest; 0
-layout(std430) restrict readonly buffer b_grid { int b_nodeOfGrid[]; };
-layout(std430) restrict readonly buffer b_sides { float b_side[]; }; // signed distance to the nearest cut (render/cut_mask.h)
 uniform sampler2D t_positions;
-uniform usampler2D t_nodeInfo;
 layout(rgba32f) uniform restrict writeonly image2D i_above, i_below;
-uniform int u_nodeCount;
-uniform ivec3 u_dims, u_centre; // of the grid; its point that rests at the origin
-uniform int u_offsets[3 * SRS_NEIGHBOURS];
+uniform ivec3 u_centre; // point of the grid that rests at the origin
 
 const float kEven = 0.002;   // how much an even displacement is preferred to a slope that nodes do not show
 
-ivec2 texelOf(int node) {
-    uint texel = b_node[node].x;
-    return ivec2(texel & 0xffffu, texel >> 16);
-}
-
-ivec3 gridOf(int node) {
-    uint grid = b_node[node].y;
-    return ivec3(grid & 0x3ffu, grid >> 10 & 0x3ffu, grid >> 20);
-}
-
-int nodeAt(ivec3 grid) {
-    if (any(lessThan(grid, ivec3(0))) || any(greaterThanEqual(grid, u_dims)))
-        return -1;
-    return b_nodeOfGrid[grid.x + u_dims.x * (grid.y + u_dims.y * grid.z)];
-}
-
-ivec3 offset(int direction) {
-    return ivec3(u_offsets[3 * direction], u_offsets[3 * direction + 1], u_offsets[3 * direction + 2]);
-}
-
-uint connectionsOf(int node) {
-    return texelFetch(t_nodeInfo, texelOf(node), 0).x & SRS_CONNECTION_MASK;
-}
-
-bool isFar(int node) {
-    return abs(b_side[node]) >= SRS_MASK_FAR;
-}
-
 /// Is a node that a cut is near on this side of it?
 bool isOn(int node, float side) {
-    return !isFar(node) && (b_side[node] >= 0.0) == (side > 0.0);
+    return !isFar(node) && b_side[node] != SRS_SIDE_LOOSE && (b_side[node] >= 0.0) == (side > 0.0);
 }
 
 /// Springs from a node to the side at rest, and those that are left.
@@ -126,7 +93,7 @@ vec4 carriedBy(int node, float side) {
 /// xyz: the place; w: how far on this side the node lies, as SRS_SIDE_... say.
 vec4 carried(int node, float side) {
     vec3 own = texelFetch(t_positions, texelOf(node), 0).xyz;
-    bool loose = connectionsOf(node) == 0u && b_node[node].z != 0u;
+    bool loose = b_side[node] == SRS_SIDE_LOOSE || connectionsOf(node) == 0u && b_node[node].z != 0u;
     if (isFar(node) && !loose)
         return vec4(own, SRS_SIDE_FAR);
     float on = isFar(node) ? SRS_SIDE_FAR : side * b_side[node];

@@ -80,6 +80,18 @@ std::optional<SceneProblem> findSceneProblem(const Scene& scene) {
         return SceneProblem{"look", "search",
                             "by threshold asks how near the surface is, and depth maps do not know: take "
                             "\"jacobian\" or \"linear\""};
+    // What a scene file says of these has the line of its own key; here `show` was replaced.
+    if (!scene.deformations.empty() && look.show != Show::implicit)
+        return SceneProblem{
+            "look", "show",
+            "deformations move what is ray-cast, and have no effect on surfaces: take \"implicit\""};
+    if (look.cutVolume && look.show == Show::surface)
+        return SceneProblem{"look", "show",
+                            "look.cut_volume has no effect on surfaces: take \"implicit\" or \"both\""};
+    if (look.sectionAt && look.show != Show::surface)
+        return SceneProblem{"look", "section_at",
+                            "has no effect on what is ray-cast: take show = \"surface\", or cut it open by a "
+                            "[[deformation]] of kind = \"box\""};
     return std::nullopt;
 }
 

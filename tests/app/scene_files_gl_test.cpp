@@ -87,6 +87,39 @@ TEST_F(GlSceneFiles, ADeformationIsOfTheOrgansThatItNames) {
     EXPECT_NE(left.err.find("outside of every organ that it is of"), std::string::npos) << left.err;
 }
 
+// Between its keys it is looked at, too.
+TEST_F(GlSceneFiles, ADeformationMayPassThroughAnOrgan) {
+    const auto scene = [](const std::string& height) {
+        return head() + kTail +
+               "[[deformation]]\nkind = \"pull\"\nat = [\"0 mm\", \"0 mm\", \"0 mm\"]\n"
+               "size = [\"60 mm\", \"" +
+               height +
+               "\", \"60 mm\"]\namount = \"5 mm\"\nradius = \"8 mm\"\nkeys = [\n"
+               "{ t = \"0 s\", at = [\"-200 mm\", \"10 mm\", \"0 mm\"] },\n"
+               "{ t = \"1 s\", at = [\"200 mm\", \"10 mm\", \"0 mm\"] } ]\n";
+    };
+    folder_.write("passes.toml", scene("120 mm")); // its top lies above the balls
+    const ChildResult passes = run("passes.toml");
+    EXPECT_EQ(passes.exitCode, 0) << passes.err;
+    folder_.write("tears.toml", scene("40 mm")); // in them
+    const ChildResult tears = run("tears.toml");
+    EXPECT_EQ(tears.exitCode, 2);
+    EXPECT_NE(tears.err.find("torn"), std::string::npos) << tears.err;
+}
+
+// A table that a scene's own `show` gives sense to is not passed over where the command line says another.
+TEST_F(GlSceneFiles, ShowIsHeldAgainstTheScene) {
+    folder_.write("cut.toml", head() + kTail +
+                                  "[deformation]\nkind = \"sphere\"\nat = [\"0 mm\", \"0 mm\", \"0 mm\"]\n"
+                                  "size = [\"60 mm\", \"60 mm\", \"60 mm\"]\nradius = \"25 mm\"\n");
+    for (const char* const show : {"surface", "both"}) {
+        const ChildResult refused = run("cut.toml", {"--show", show});
+        EXPECT_EQ(refused.exitCode, 2) << show;
+        EXPECT_NE(refused.err.find("look.show: deformations move what is ray-cast"), std::string::npos)
+            << refused.err;
+    }
+}
+
 TEST_F(GlSceneFiles, TheVertexStageMovesWhatItCan) {
     const auto scene = [](const std::string& bend, const std::string& top = "") {
         return top + head() + kTail +

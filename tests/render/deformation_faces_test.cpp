@@ -61,6 +61,12 @@ TEST(DeformationFaces, SayWhereAnObjectIsTorn) {
     const auto cut = examineFaces({&slot, {}}, ball(0.06));
     EXPECT_TRUE(cut[0].tears && cut[1].tears);
     EXPECT_FALSE(cut[2].tears || cut[3].tears || cut[4].tears || cut[5].tears);
+    // Narrower than a 24th of the face, but not than a texel.
+    box.extent = 0.003;
+    box.depth = 0.2;
+    const DeformationTexture narrow = baked(box, glm::ivec3(64));
+    const auto slit = examineFaces({&narrow, {}}, ball(0.06));
+    EXPECT_TRUE(slit[2].tears && slit[3].tears);
     // A whole turn around a cylinder has no ends.
     DeformationMap twist = pull();
     twist.kind = MapKind::wave;

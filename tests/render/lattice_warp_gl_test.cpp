@@ -82,6 +82,64 @@ TEST_F(GlLatticeWarp, TakesWhatCellsCarryBackToRest) {
     }
 }
 
+// A slice of nodes lies so far below that the bounds' voxels would be longer than the organ.
+TEST_F(GlLatticeWarp, APieceThatFellOffTakesNothingFromTheRest) {
+    const sim::Lattice lattice = test::blockLattice(9, 5, 6, 0.004);
+    auto textures = sim::StateTextures::create(lattice, {});
+    ASSERT_TRUE(textures.ok());
+    auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
+    ASSERT_TRUE(warp.ok()) << warp.error().message;
+    for (const double fall : {12.0, 30.0, 300.0}) {
+        sim::LatticeState state = bent(lattice, 0);
+        double first = 1e9, most = 0;
+        for (std::size_t i = 0; i < lattice.nodeCount(); ++i)
+            first = std::min(first, lattice.restPosition(i).x);
+        for (std::size_t i = 0; i < lattice.nodeCount(); ++i)
+            if (lattice.restPosition(i).x < first + 1.5)
+                state.positions[i].y -= fall;
+        textures->upload(state);
+        ASSERT_TRUE(warp->update(*textures).ok());
+        const LatticeWarp::Read read = warp->read();
+        EXPECT_LE(std::max({read.step.x, read.step.y, read.step.z}), 0.7501) << "spacings a voxel";
+        std::size_t seen = 0;
+        for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
+            if (lattice.restPosition(i).x < first + 3.5) // beside the cells that are drawn out
+                continue;
+            const glm::dvec4 d = sample(read, warp->size(), state.positions[i]);
+            ASSERT_GT(d.w, 0.999) << fall;
+            most = std::max(
+                most, glm::distance(glm::dvec3(state.positions[i]) + glm::dvec3(d), lattice.restPosition(i)));
+            ++seen;
+        }
+        EXPECT_LT(most, 1e-3) << fall << ": a linear field";
+        EXPECT_EQ(seen, 6U * 6 * 7);
+    }
+}
+
+// What is thin has room to turn.
+TEST_F(GlLatticeWarp, ASlenderOneMayTurn) {
+    const sim::Lattice lattice = test::blockLattice(30, 2, 2, 0.004);
+    auto textures = sim::StateTextures::create(lattice, {});
+    ASSERT_TRUE(textures.ok());
+    auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
+    ASSERT_TRUE(warp.ok()) << warp.error().message;
+    sim::LatticeState state = sim::restState(lattice);
+    for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
+        const glm::dvec3 p = lattice.restPosition(i);
+        state.positions[i] = glm::dvec3(-p.y, p.x, p.z);
+    }
+    textures->upload(state);
+    ASSERT_TRUE(warp->update(*textures).ok());
+    const LatticeWarp::Read read = warp->read();
+    std::size_t lost = 0;
+    for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
+        const glm::dvec4 d = sample(read, warp->size(), state.positions[i]);
+        lost += !(d.w > 0.999 && glm::distance(glm::dvec3(state.positions[i]) + glm::dvec3(d),
+                                               lattice.restPosition(i)) < 1e-3);
+    }
+    EXPECT_LE(lost, lattice.nodeCount() / 10) << "its ends, where the room ends";
+}
+
 TEST_F(GlLatticeWarp, KnowsWhereThereIsNoTissue) {
     const sim::Lattice lattice = test::ballLattice(4.3, 0.004, {0.1, 0, 0});
     auto textures = sim::StateTextures::create(lattice, {});

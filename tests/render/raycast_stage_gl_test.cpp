@@ -89,6 +89,17 @@ protected:
     View view_;
 };
 
+// Wires are of the surface: each pixel still has its ray.
+TEST_F(GlRaycastStage, WiresOfTheSurfaceLeaveWhatIsRayCast) {
+    const Image whole = draw(sim::Show::implicit);
+    view_.wireframe = true;
+    const Image wires = draw(sim::Show::implicit);
+    int differ = 0;
+    for (std::size_t i = 0; i < std::size_t(kSize) * kSize; ++i)
+        differ += apart(whole, wires, i) > 0;
+    EXPECT_EQ(differ, 0);
+}
+
 // Where nothing moves, mesh and field are the same ball: each pixel of the composite lies between the two
 // pictures that it is blended of, and no step is larger than theirs and the blending.
 TEST_F(GlRaycastStage, ASeamIsNotSeen) {

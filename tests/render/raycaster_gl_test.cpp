@@ -105,6 +105,33 @@ TEST_F(GlRaycaster, AnUndeformedBallIsABall) {
 }
 
 // A ball that is sheared by a linear displacement: an ellipsoid with a known silhouette.
+// However short the steps, a ray goes on to its end.
+TEST_F(GlRaycaster, ShortStepsReachTheFarSide) {
+    const sim::TriangleMesh mesh = ball();
+    const DistanceVolume volume = volumeOf(mesh, 64);
+    const View view(mesh, {0.3, -0.4, -1}, sim::Projection::perspective);
+    auto caster = Raycaster::create(view.lattice, volume);
+    ASSERT_TRUE(caster.ok());
+    RaycastLook look;
+    look.skipField = false;
+    look.search = Search::linear;
+    look.coarse = 0;
+    look.step = 0.01;
+    const auto probes = caster->probe(view.frame, look, kWidth, kHeight);
+    ASSERT_TRUE(probes.ok()) << probes.error().message;
+    int wrong = 0, far = 0;
+    for (std::size_t i = 0; i < probes->size(); ++i) {
+        glm::dvec3 from, along;
+        view.ray(i, from, along);
+        const double middle = -glm::dot(from, along), miss = glm::length(from + middle * along);
+        if (std::abs(miss - 0.04) > 0.0006)
+            wrong += ((*probes)[i].kind == RaycastProbe::surface) != (miss < 0.04);
+        far += (*probes)[i].samples > 2048;
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(far, 300);
+}
+
 TEST_F(GlRaycaster, AShearedBallHasItsKnownSilhouette) {
     const sim::TriangleMesh mesh = ball();
     const DistanceVolume volume = volumeOf(mesh, 64);

@@ -91,6 +91,9 @@ std::vector<BadScene> badScenes() {
          kMinimal + "[look]\nshow = \"implicit\"\ninterior = \"hollow\"\n[look.cut_volume]\nfile = "
                     "\"ball.ply\"\n",
          "9:8", "hollow"},
+        {"SectionOfRayCast",
+         kMinimal + "[look]\nshow = \"implicit\"\nsection_at = [\"0 m\", \"0 m\", \"0 m\"]\n", "7:14",
+         "no effect on what is ray-cast"},
         {"VerticesCannotCut", byVertices("kind = \"sphere\"\nradius = \"1 cm\""), "10:6", "leave this kind"},
         {"VerticesCannotBeWound", byVertices(twist + "\nwound = \"1 cm\""), "13:9", "has no effect"},
         {"VerticesHaveNoTexels", byVertices(twist + "\ntexels = [8, 8, 8]"), "13:10", "has no effect"},
