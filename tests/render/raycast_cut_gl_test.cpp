@@ -251,6 +251,50 @@ TEST_F(GlRaycastCut, FacesOfACutThroughNodesAreFlatAtRestHoweverTheHalvesBend) {
     }
 }
 
+// A layer of nodes in the blade's very way, of which the springs and the rounded distance may say different
+// things; and a layer that two strokes left alone, which falls. No cell hangs between the halves.
+TEST_F(GlRaycastCut, NodesInTheBladesWayGoWhereTheirSpringsGo) {
+    const double layer = std::round(middle_.x) - middle_.x;
+    tilt_ = 0;
+    normal_ = {1, 0, 0};
+    for (Half& half : halves_)
+        half.turn = glm::dmat3(1);
+    for (const bool alone : {false, true})
+        for (const double beside : {-0.04, 0.04}) {
+            SCOPED_TRACE((alone ? "alone " : "with a half ") + std::to_string(beside));
+            plane_ = layer + beside;
+            mask_->clear();
+            state_->upload(sim::restState(lattice_));
+            mask_->paint(*state_, lattice_, stroke());
+            plane_ = layer - beside;
+            sim::LatticeState now = cutAndOpened();
+            if (alone) {
+                plane_ = layer + beside;
+                sim::cutConnections(lattice_, sim::restState(lattice_).positions,
+                                    toLattice(stroke(), lattice_), now.connections);
+                for (std::size_t node = 0; node < lattice_.nodeCount(); ++node)
+                    if (std::abs(lattice_.restPosition(node).x - middle_.x - layer) < 0.1)
+                        now.positions[node] = glm::vec3(lattice_.restPosition(node)) - glm::vec3(0, 40, 0);
+            }
+            state_->upload(now);
+            ASSERT_TRUE(warp_->update(*state_, &*mask_).ok());
+            const View view = this->view(glm::normalize(glm::dvec3(0.3, -0.2, -0.8)));
+            const std::vector<RaycastProbe> probes = probe(view, Solid::solid);
+            int object = 0, gap = 0, wrong = 0;
+            for (std::size_t i = 0; i < probes.size(); ++i) {
+                glm::dvec3 from, along;
+                ray(view, i, from, along);
+                const bool any = meet(from, along).any;
+                object += any;
+                gap += !any;
+                wrong += any != (probes[i].kind != RaycastProbe::nothing);
+            }
+            EXPECT_GT(object, 3000);
+            EXPECT_GT(gap, 3000);
+            EXPECT_LT(wrong, 0.01 * object) << wrong << " of " << object;
+        }
+}
+
 // Solid: nothing between the halves, faces closed, where and as they must be.
 TEST_F(GlRaycastCut, HalvesThatArePulledApartHaveClosedFacesAndNothingBetween) {
     cutAndOpen();
