@@ -30,9 +30,11 @@ sim::LatticeState bent(const sim::Lattice& lattice, double strength) {
     return state;
 }
 
-/// D of a shown place, trilinearly; w: coverage.
+/// D of a shown place, trilinearly; w: coverage, 0 beyond the box.
 glm::dvec4 sample(const LatticeWarp::Read& read, const glm::ivec3& size, const glm::dvec3& shown) {
     const glm::dvec3 at = (shown - read.lowest) / read.step;
+    if (glm::any(glm::lessThan(at, glm::dvec3(0))) || glm::any(glm::greaterThan(at, glm::dvec3(size - 1))))
+        return glm::dvec4(0);
     const glm::ivec3 cell = glm::clamp(glm::ivec3(glm::floor(at)), glm::ivec3(0), size - 2);
     const glm::dvec3 share = at - glm::dvec3(cell);
     glm::dvec4 sum(0);
