@@ -53,13 +53,22 @@ Moved moveBack(vec3 shown) {
     return moved;
 }
 
-/// d(p' + D(p')) / dp' of a side, by central differences over a voxel.
+/// d(p' + D(p')) / dp' of a side, by central differences over a voxel; where a side's tissue ends, by one-sided ones.
 mat3 latticeJacobian(vec3 shown, float side) {
     mat3 gradient;
     for (int axis = 0; axis < 3; ++axis) {
         vec3 by = vec3(0.0);
         by[axis] = 0.5 * b_step[axis];
-        gradient[axis] = (readLattice(shown + by, side).xyz - readLattice(shown - by, side).xyz) / b_step[axis];
+        vec4 more = readLattice(shown + by, side), less = readLattice(shown - by, side);
+        float over = b_step[axis];
+        // A software renderer runs through what a branch holds, but not through a loop.
+        for (int i = 0; i < int(min(more.w, less.w) <= 0.999); ++i) {
+            vec4 here = readLattice(shown, side);
+            over *= more.w > 0.999 != less.w > 0.999 ? 0.5 : 1.0;
+            less = more.w > 0.999 ? here : less;
+            more = more.w > 0.999 ? more : here;
+        }
+        gradient[axis] = (more.xyz - less.xyz) / over;
     }
     return mat3(1.0) + gradient;
 }

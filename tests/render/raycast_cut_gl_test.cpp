@@ -338,6 +338,27 @@ TEST_F(GlRaycastCut, HalvesThatArePulledApartHaveClosedFacesAndNothingBetween) {
     EXPECT_GT(faces, 700);
 }
 
+// Of a side's tissue its texture ends some cells behind the cut: normals there are taken of what it holds.
+TEST_F(GlRaycastCut, NormalsAreRightWhereASidesTissueEnds) {
+    halves_[1].move = {-1.6, -9, -0.4}; // so far that its voxels are long
+    cutAndOpen();
+    int skin = 0, bent = 0;
+    for (const glm::dvec3& direction : {glm::dvec3(0, 0, -1), {0.8, -0.2, -0.7}, {-0.75, 0.3, -0.7}}) {
+        const View view = this->view(glm::normalize(direction));
+        const std::vector<RaycastProbe> probes = probe(view, Solid::solid);
+        for (std::size_t i = 0; i < probes.size(); ++i) {
+            glm::dvec3 from, along;
+            ray(view, i, from, along);
+            const Met met = meet(from, along);
+            const bool is = met.any && !met.face && probes[i].kind == RaycastProbe::surface;
+            skin += is;
+            bent += is && glm::dot(probes[i].normal, met.normal) < std::cos(0.35);
+        }
+    }
+    EXPECT_GT(skin, 5000);
+    EXPECT_LT(bent, 0.002 * skin) << bent << " of " << skin;
+}
+
 // The gap's width along a row through the middle, straight from the front of a cut without a turn.
 TEST_F(GlRaycastCut, TheGapIsAsWideAsItMustBe) {
     halves_[0].turn = glm::dmat3(1);
