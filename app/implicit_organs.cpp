@@ -3,6 +3,7 @@
 
 #include "app/vector_image.h"
 #include "base/check.h"
+#include "gpu/sampled_texture.h"
 #include "render/vertex_colours.h"
 
 namespace serosa::app {
@@ -106,7 +107,7 @@ Status ImplicitOrgans::open(render::SurfaceRenderer& renderer, const std::vector
     if (!deformation_)
         return {};
     SEROSA_TRY(deformation_->checkMet());
-    SEROSA_TRY(deformation_->checkSizes(render::Raycaster::mostTexels()));
+    SEROSA_TRY(deformation_->checkSizes(gpu::Texture3D::mostTexels()));
     SEROSA_TRY(place(0));
     for (std::size_t i = 0; i < organs_.size() && stage_ != sim::Stage::whole; ++i)
         SEROSA_TRY(renderer.openBox(i, surfaceBox(i, 0), *surfaces[i].lattice, *surfaces[i].metres,

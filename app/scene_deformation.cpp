@@ -280,10 +280,6 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
                    one.mapping.objectFromLocal == first.mapping.objectFromLocal &&
                    one.mapping.cylinderRadius == first.mapping.cylinderRadius;
     }
-    const auto isUpToDate = [&] {
-        made.time = time;
-        made.version = version_;
-    };
     if (together) {
         render::DeformationTexture sum = *warps.front().texture;
         for (std::size_t i = 1; i < some.size(); ++i) {
@@ -294,7 +290,6 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
         }
         made.texture = std::move(sum);
         made.mapping = warps.front().mapping;
-        isUpToDate();
         return {};
     }
     Result<render::ChainedWarp> chained = render::chain(warps, formatOf(scene_.deformations[some.front()]));
@@ -302,7 +297,6 @@ Status SceneDeformation::link(const std::vector<std::size_t>& some, double time,
         return errorOf(some.front(), chained.error().message);
     made.texture = std::move(chained->texture);
     made.mapping = chained->mapping;
-    isUpToDate();
     return {};
 }
 
@@ -316,8 +310,11 @@ Result<std::optional<render::Warp>> SceneDeformation::at(std::size_t organ, doub
     if (some.size() == 1)
         return std::optional(warpOf(some.front(), time));
     Chain& chain = chains_[some];
-    if (!chain.texture || (moves() && time != chain.time) || chain.version != version_)
+    if (!chain.texture || (moves() && time != chain.time) || chain.version != version_) {
         SEROSA_TRY(link(some, time, chain));
+        chain.time = time;
+        chain.version = version_;
+    }
     return std::optional(render::Warp{&*chain.texture, chain.mapping});
 }
 

@@ -18,6 +18,12 @@ std::size_t texelsOf(const glm::ivec3& size) {
 
 } // namespace
 
+int Texture3D::mostTexels() {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    return most;
+}
+
 Texture3D::Texture3D(const std::string& label, const glm::ivec3& size) : Texture3D(label, GL_RGBA8, size) {}
 
 Texture3D::Texture3D(const std::string& label, GLenum format, const glm::ivec3& size)

@@ -12,6 +12,8 @@ namespace serosa::gpu {
 class Texture3D : public Handle {
 public:
     Texture3D() = default;
+    /// Along a side, that the current context has.
+    static int mostTexels();
     /// RGBA8. As an image its texel is one uint32, r in the lowest byte: atomics work on it.
     Texture3D(const std::string& label, const glm::ivec3& size);
     /// \param format as Texture2D's; R32UI is not filtered

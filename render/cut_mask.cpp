@@ -64,8 +64,7 @@ std::vector<MaskCell> maskCells(const sim::Lattice& lattice, const sim::TextureL
 Result<CutMask> CutMask::create(const sim::Lattice& lattice, const sim::TextureLayout& layout) {
     const glm::ivec3 cells = lattice.nodeDims + 1; // with one around
     const int most = std::max({cells.x, cells.y, cells.z});
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit);
+    const int limit = gpu::Texture3D::mostTexels();
     CutMask mask;
     for (mask.voxels_ = kMostVoxels; mask.voxels_ > kFewestVoxels; --mask.voxels_) {
         const double voxels = double(cells.x) * cells.y * cells.z * std::pow(mask.voxels_, 3);

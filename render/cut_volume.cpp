@@ -41,8 +41,7 @@ std::string voxelText(std::size_t index, const glm::ivec3& size) {
 
 Result<CutVolume> CutVolume::of(const VoxelValues& voxels) {
     const glm::ivec3& size = voxels.size;
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    const int most = gpu::Texture3D::mostTexels();
     for (int axis = 0; axis < 3; ++axis)
         if (size[axis] < 1 || size[axis] > most)
             return Error{"has " + std::to_string(size[axis]) +

@@ -42,8 +42,7 @@ Result<DepthMaps> DepthMaps::create(const sim::TriangleMesh& mesh, const VolumeG
         glm::any(glm::greaterThan(high, glm::dvec3(grid.size) - 0.5)))
         return Error{"depth maps of a mesh that reaches beyond their grid: they need all of it"};
     const int side = std::max({grid.size.x, grid.size.y, grid.size.z});
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    const int most = gpu::Texture3D::mostTexels();
     if (side > most)
         return Error{"depth maps of " + std::to_string(side) +
                      " texels along a side: the context has at most " + std::to_string(most)};

@@ -78,8 +78,7 @@ Result<LatticeWarp> LatticeWarp::create(const sim::Lattice& lattice, const sim::
         high = node ? glm::max(high, lattice.restPosition(node)) : lattice.restPosition(node);
     }
     const glm::ivec3 size = sizeOf(high - low, voxels);
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    const int most = gpu::Texture3D::mostTexels();
     const int longest = std::max({size.x, size.y, kMostSides * size.z});
     if (longest > most)
         return Error{"a displacement texture of " + std::to_string(longest) +
@@ -140,7 +139,7 @@ Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask,
     if (mask)
         sideNodes_->update(state, *mask);
     Programs& programs = mask ? *cut_ : whole_;
-    const int sides = mask ? 2 : 1;
+    const int sides = mask ? kMostSides : 1;
     const auto barrier = [] {
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
                         GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
@@ -153,6 +152,8 @@ Status LatticeWarp::update(const sim::StateTextures& state, const CutMask* mask,
     owner_.clear(0xffffffffu);
     for (gpu::Program* const program : {&programs.bounds, &programs.bins}) {
         program->set("u_nodes", int(nodeCount_)).buffer("b_nodes", nodes_).buffer("b_box", box_);
+        if (program == &programs.bins)
+            program->set("u_size", size()).set("u_mostStep", float(mostStep_));
         for (int side = 0; side < sides; ++side) {
             program->texture("t_positions", !mask       ? state.positions()
                                             : side == 0 ? sideNodes_->above()

@@ -329,12 +329,6 @@ void Raycaster::drawFaces(const RaycastLook& look, bool blended) const {
     glCullFace(GL_BACK);
 }
 
-int Raycaster::mostTexels() {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
-    return most;
-}
-
 Status Raycaster::draw(const Frame& frame, const RaycastLook& look) {
     return drawBox(frame, look, false);
 }

@@ -79,9 +79,6 @@ public:
         return create(lattice, RayField::of(volume));
     }
 
-    /// Along a side of a texture of 3 dimensions: what the context has.
-    static int mostTexels();
-
     /// From now on; nothing: at rest. \param worldFromLocal of mapping: m
     void setWarp(const std::optional<Warp>& warp);
     /// What is in the warp's box now was here a frame ago, m; from now on. setWarp() puts it back to rest.

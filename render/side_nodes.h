@@ -4,10 +4,9 @@
 // anew on the GPU from a state and the sides that the mask knows (render/cut_mask.h):
 //
 // - a node on the side, or far from every cut, lies where it is;
-// - one on the other side, or that no spring holds to either any more, lies where the side's nodes within two
-// grid
-//   steps would have it: weighted least squares of an affine displacement. The more of its springs to the
-//   side are left, the more it is where it is: so the two sides meet where a cut ends.
+// - one on the other side, or that no spring holds to either any more, lies where the side's nodes within
+//   two grid steps would have it: weighted least squares of an affine displacement. The more of its springs
+//   to the side are left, the more it is where it is: so the two sides meet where a cut ends.
 //
 // A cell over one of the textures is whole, whatever crosses it, and neighbouring cells share corners: each
 // side's tissue goes on past the cut without a jump. Sides are those of the nearest cut: where cuts cross,

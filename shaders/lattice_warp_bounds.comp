@@ -2,11 +2,18 @@
 // them; WARP_WAYS: how far they go in a step; WARP_FRAME: the voxels' box.
 #version 450 core
 #include "lattice_warp_box.glsl"
+#if defined(WARP_FRAME) || defined(WARP_BINS)
+uniform ivec3 u_size;
+uniform float u_mostStep; // of a voxel, where pieces fell off, which would leave none for the rest
+
+/// Of the box, where pieces fell off.
+float mostLength(int axis) {
+    return u_mostStep * float(u_size[axis] - 3);
+}
+#endif
 #ifdef WARP_FRAME
 layout(local_size_x = 3) in; // an axis each
-uniform ivec3 u_size;
 uniform float u_wayShare; // steps a frame over nodes and SRS_WAY_UNITS
-uniform float u_mostStep; // of a voxel, where pieces fell off, which would leave none for the rest
 
 /// The longest part of the bounds without a node.
 float gapOf(int axis, float low, float high) {
@@ -39,7 +46,7 @@ void main() {
     if (axis == 0)
         b_way = float(b_sum) * u_wayShare;
     float low = unordered(b_bound[axis]), high = unordered(b_bound[3 + axis]);
-    float most = u_mostStep * float(u_size[axis] - 3);
+    float most = mostLength(axis);
     // What is stretched has no gaps, and cells that reach further.
     if (high - low > 2.0 * most || high - low > most && gapOf(axis, low, high) >= SRS_WARP_GAP) {
         low = fullest(axis, low, high, most);
@@ -75,7 +82,9 @@ void main() {
     for (int axis = 0; axis < 3; ++axis) {
 #ifdef WARP_BINS
         float low = unordered(b_bound[axis]), high = unordered(b_bound[3 + axis]);
-        int bin = int(SRS_WARP_BINS * (at[axis] - low) / max(high - low, 1e-6));
+        if (high - low <= mostLength(axis)) // nobody asks
+            continue;
+        int bin = int(SRS_WARP_BINS * (at[axis] - low) / (high - low));
         atomicAdd(b_nodesIn[SRS_WARP_BINS * axis + clamp(bin, 0, SRS_WARP_BINS - 1)], 1u);
 #else
         atomicMin(b_bound[axis], ordered(at[axis]));

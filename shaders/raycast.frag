@@ -6,11 +6,7 @@
 #include "raycast_search.glsl"
 #include "lighting.glsl"
 #ifndef RAYCAST_PROBE
-#include "tissue_light.glsl"
-#include "flesh.glsl"
-#ifdef RAYCAST_VOLUME
-#include "cut_volume.glsl"
-#endif
+#include "raycast_colour.glsl"
 #endif
 #include "raycast_box.glsl"
 #ifdef RAYCAST_PROXY
@@ -26,38 +22,12 @@ uniform float u_behind; // so much further off lies all but faces of cuts, latti
 #ifdef RAYCAST_STAGE
 uniform float u_seamLift; // object space: the field and the surface differ by less
 #endif
-uniform vec3 u_inner, u_flesh; // linear: inner side of a hollow or thick one, cut faces
-#ifdef RAYCAST_COLOURED
-uniform sampler3D t_colours; // square root of the linear colour outside; light that arrives (render/ray_field.h)
-#else
-uniform vec3 u_skin; // linear: outside
-#endif
 
 #ifdef RAYCAST_PROBE
 layout(location = 0) out vec4 o_normal; // xyz, t
 layout(location = 1) out vec4 o_rest;   // xyz; w 1 surface, 2 its inner side, 3 cut face; 4 a sample more
 #else
 out vec4 o_colour;
-#endif
-
-#ifndef RAYCAST_PROBE
-const float kInnerOpen = 0.8; // of the surround, in a cut
-const float kVolumeRoughness = 0.42;
-
-/// Linear colour outside at rest, and light of the surround that arrives.
-vec4 skinAt(vec3 rest) {
-#ifdef RAYCAST_COLOURED
-    vec3 at = (rest - u_fieldLowest) / u_fieldStep;
-#if RAYCAST_FIELD == SRS_FIELD_DISTANCE
-    vec4 read = texture(t_colours, (at + 0.5) / vec3(textureSize(t_colours, 0)));
-#else
-    vec4 read = texture(t_colours, depthColourAt(at));
-#endif
-    return vec4(read.rgb * read.rgb, read.a);
-#else
-    return vec4(u_skin, 1.0);
-#endif
-}
 #endif
 
 /// Where the ray is in the box: entry, exit.
@@ -118,32 +88,7 @@ void show(Met met) {
     o_normal = vec4(n, hit.t);
     o_rest = vec4(hit.rest, (hit.face ? 3.0 : hit.back ? 2.0 : 1.0) + float(4 * hit.samples));
 #else
-    vec3 v = -met.along;
-    if (dot(n, v) < 0.02)
-        n = normalize(n + (0.02 - dot(n, v)) * v);
-    vec4 skin = skinAt(hit.rest);
-    Tissue tissue;
-    tissue.position = shown;
-    tissue.albedo = hit.back ? u_inner : skin.rgb;
-    tissue.open = hit.face || hit.back ? kInnerOpen : skin.a;
-    tissue.inside = hit.back;
-    tissue.normal = tissue.inside ? normalize(n + 0.8 * v) : n;
-    tissue.film = n;
-    tissue.roughness = 0.36;
-    tissue.blood = 0.0;
-    if (hit.face) {
-        Flesh flesh = fleshAt(hit.rest, u_flesh);
-        tissue.albedo = flesh.albedo;
-        tissue.roughness = flesh.roughness;
-#ifdef RAYCAST_VOLUME
-        vec4 volume = cutVolumeAt(hit.rest);
-        if (volume.w > 0.5) {
-            tissue.albedo = volume.rgb;
-            tissue.roughness = kVolumeRoughness;
-        }
-#endif
-    }
-    o_colour = vec4(tissueLight(tissue, v), 1.0);
+    o_colour = vec4(colourOf(hit, shown, n, -met.along), 1.0);
 #ifdef RAYCAST_STAGE
     o_colour.a = seam;
 #endif

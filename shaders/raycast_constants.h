@@ -26,12 +26,13 @@
 #define SRS_SEARCH_THRESHOLD 1
 #define SRS_SEARCH_JACOBIAN 2
 
-#define SRS_REFINEMENTS 30    // of an interval in which a ray meets something, at most,
-#define SRS_EXACT 0.004       // and until it is so short, of the step: where space was skipped it is long
-#define SRS_MOST_SAMPLES 2048 // of a ray, or
-#define SRS_SAMPLES_A_STEP 4  // so many for each step of its way, before it adapts
-#define SRS_LEAST_STEP 0.05   // of the step: adaptive ones are never shorter
-#define SRS_MOST_STEP 2.0     // and never longer
+#define SRS_REFINEMENTS 30       // of an interval in which a ray meets something, at most,
+#define SRS_EXACT 0.004          // and until it is so short, of the step: where space was skipped it is long
+#define SRS_MOST_SAMPLES 2048.0  // of a ray, or
+#define SRS_SAMPLES_A_STEP 4.0   // so many for each step of its way, before it adapts,
+#define SRS_MOST_OF_ALL 131072.0 // but no more than this
+#define SRS_LEAST_STEP 0.05      // of the step: adaptive ones are never shorter
+#define SRS_MOST_STEP 2.0        // and never longer
 
 #define SRS_AHEAD 1.25 // of what is clear around a place: so far ahead a ray looks
 
@@ -52,8 +53,6 @@
 #define SRS_WARP_MOST_CELLS 1048575 // an owner is a cell in 20 bits, below how far outside it is
 #define SRS_WARP_REACH 0.75         // cells: so far beside itself a cell says where tissue would be
 #define SRS_WARP_ACROSS 1.1         // spacings: so far beyond a cut its side goes on
-#define SRS_SIDE_ON 0.25            // spacings: a node so near to a cut is as good as on either side of it
-#define SRS_SIDE_LOOSE 0.0          // a side: a node that is left alone between two cuts
 #define SRS_WARP_BESIDE 1.75        // spacings: as far as a cell that a cut crosses reaches from it
 #define SRS_WARP_BINS 512           // parts of the nodes' bounds along an axis
 #define SRS_WARP_GAP 3.0            // spacings without a node: a piece fell off

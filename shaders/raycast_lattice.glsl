@@ -16,6 +16,11 @@ struct Moved {
     float cut;    // to the nearest of them
 };
 
+/// All samples around hold tissue.
+bool isCovered(vec4 read) {
+    return read.w > 0.999;
+}
+
 vec4 readLattice(vec3 shown, float side) {
     vec3 at = ((shown - b_lowest.xyz) / b_step.xyz + 0.5) / vec3(textureSize(t_lattice, 0));
 #ifdef RAYCAST_CUT
@@ -27,7 +32,7 @@ vec4 readLattice(vec3 shown, float side) {
 
 Moved movedBy(vec3 shown, float side) {
     vec4 read = readLattice(shown, side);
-    Moved moved = Moved(shown + read.xyz, 0.0, read.w > 0.999, side, 1e9); // covered: all samples around are
+    Moved moved = Moved(shown + read.xyz, 0.0, isCovered(read), side, 1e9);
     if (!moved.covered)
         return moved;
     moved.kept = 1.0;
@@ -62,11 +67,12 @@ mat3 latticeJacobian(vec3 shown, float side) {
         vec4 more = readLattice(shown + by, side), less = readLattice(shown - by, side);
         float over = b_step[axis];
         // A software renderer runs through what a branch holds, but not through a loop.
-        for (int i = 0; i < int(min(more.w, less.w) <= 0.999); ++i) {
+        bool before = isCovered(less), after = isCovered(more);
+        for (int i = 0; i < int(!(before && after)); ++i) {
             vec4 here = readLattice(shown, side);
-            over *= more.w > 0.999 != less.w > 0.999 ? 0.5 : 1.0;
-            less = more.w > 0.999 ? here : less;
-            more = more.w > 0.999 ? more : here;
+            over *= before || after ? 0.5 : 1.0;
+            less = before ? less : here;
+            more = after ? more : here;
         }
         gradient[axis] = (more.xyz - less.xyz) / over;
     }

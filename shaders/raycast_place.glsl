@@ -5,7 +5,7 @@
 #define RAYCAST_SEARCHES_BODY (RAYCAST_SOLID == SRS_SOLID_HOLLOW)
 #define RAYCAST_IS_HOLLOW (RAYCAST_SEARCHES_BODY || RAYCAST_SOLID == SRS_SOLID_COMBINED)
 #include "raycast_field.glsl"
-#include "raycast_warp.glsl"
+#include "raycast_jacobian.glsl"
 
 uniform float u_thickness; // of a shell, object space
 uniform float u_boxSize;   // longer than any way through the box: the distance where there is no tissue

@@ -49,7 +49,7 @@ float refinedPlace(int i, float low, float high, Side below, Side above) {
 
 Hit castRay(vec3 from, vec3 along, float start, float end) {
     Hit hit = Hit(false, false, false, end, vec3(0.0), 0);
-    int most = max(SRS_MOST_SAMPLES, int(SRS_SAMPLES_A_STEP * (end - start) / u_step));
+    int most = int(clamp(SRS_SAMPLES_A_STEP * (end - start) / u_step, SRS_MOST_SAMPLES, SRS_MOST_OF_ALL));
     vec2 slab = textureSlab(from, along);
     float t = start, last = start;
     Place place = placeAt(from + t * along);

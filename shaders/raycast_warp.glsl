@@ -1,5 +1,5 @@
-// Warping of the deformation shader (CS07 sections 3.2, 3.3, eq. 2, 5): p = M(q + D(q)), q = M^-1 p'. Twin of
-// Warp in render/deformation_texture.cpp. Object space is the lattice's unit, texture space m.
+// Warping of the deformation shader (CS07 sections 3.2, eq. 2): p = M(q + D(q)), q = M^-1 p'. Twin of Warp in
+// render/deformation_texture.cpp; its derivatives are in raycast_jacobian.glsl. Object space is the lattice's unit, texture space m.
 // The mask is 1 where kept (CS07: A < 0).
 #ifdef RAYCAST_LATTICE
 #include "raycast_lattice.glsl"
@@ -31,17 +31,6 @@ vec3 toObject(vec3 q) {
     return (u_objectFromLocal * vec4(local, 1.0)).xyz;
 }
 #endif
-
-/// d toObject / d q
-mat3 mappingJacobian(vec3 q) {
-    mat3 local = mat3(1.0);
-#ifdef RAYCAST_WOUND
-    float phi = q.z / u_cylinder, share = q.x / u_cylinder + 1.0;
-    local[0] = vec3(cos(phi), 0.0, sin(phi));
-    local[2] = vec3(-share * sin(phi), 0.0, share * cos(phi));
-#endif
-    return mat3(u_objectFromLocal) * local;
-}
 
 vec4 readDisplacement(vec3 q) {
     vec4 texel = textureLod(t_displacement, q * u_perSize + 0.5, 0.0);
@@ -98,64 +87,4 @@ Warped warp(vec3 shown) {
 #else
     return Warped(shown, kept, tissue, cut, false, shown, shown);
 #endif
-}
-
-#ifdef RAYCAST_WARP
-/// Central differences over a texel: columns of d D / d q, and of A.
-void displacementGradient(vec3 q, out mat3 gradient, out vec3 mask) {
-    vec3 texel = 2.0 * u_half / vec3(textureSize(t_displacement, 0));
-    for (int axis = 0; axis < 3; ++axis) {
-        vec3 by = vec3(0.0);
-        by[axis] = 0.5 * texel[axis];
-        vec4 slope = (readDisplacement(q + by) - readDisplacement(q - by)) / texel[axis];
-        gradient[axis] = slope.xyz;
-        mask[axis] = slope.w;
-    }
-}
-#endif
-
-/// dp / dp'
-mat3 warpJacobian(vec3 shown) {
-    mat3 first = mat3(1.0);
-#ifdef RAYCAST_LATTICE
-    Moved moved = moveBack(shown);
-    first = latticeJacobian(shown, moved.side);
-    shown = moved.rest;
-#endif
-#ifdef RAYCAST_WARP
-    vec3 q = toTexture(shown);
-    if (inBox(q)) {
-        mat3 gradient;
-        vec3 mask;
-        displacementGradient(q, gradient, mask);
-        return mappingJacobian(q + readDisplacement(q).xyz) * (mat3(1.0) + gradient) * inverse(mappingJacobian(q)) * first;
-    }
-#endif
-    return first;
-}
-
-/// Of the mask in object space: of a map's own by M's inverse transpose, of the blades' through the lattice.
-vec3 maskGradient(vec3 shown) {
-    mat3 first = mat3(1.0);
-    float kept = 1.0;
-    vec3 blade = vec3(0.0);
-#ifdef RAYCAST_LATTICE
-    Moved moved = moveBack(shown);
-    first = latticeJacobian(shown, moved.side);
-    shown = moved.rest;
-#ifdef RAYCAST_CUT
-    kept = moved.kept;
-    blade = bladeGradient(shown, moved.side);
-#endif
-#endif
-#ifdef RAYCAST_WARP
-    vec3 q = toTexture(shown);
-    if (inBox(q) && readDisplacement(q).w < kept) { // this mask ends nearer
-        mat3 gradient;
-        vec3 mask;
-        displacementGradient(q, gradient, mask);
-        return transpose(first) * (transpose(inverse(mappingJacobian(q))) * mask);
-    }
-#endif
-    return transpose(first) * blade;
 }

@@ -144,3 +144,5 @@
 #define SRS_SIDE_REACH 2     // grid steps around a node from which its place on the other side is taken
 #define SRS_SIDE_FAR 4.0     // no cut is near
 #define SRS_SIDE_NONE -100.0 // the side has no place for the node
+#define SRS_SIDE_ON 0.25     // a node so near to a cut is as good as on either side of it
+#define SRS_SIDE_LOOSE 0.0   // of a node that is left alone between two cuts

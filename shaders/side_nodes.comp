@@ -1,7 +1,6 @@
 // Nodes as each side of the blades' cuts carries them (render/side_nodes.h).
 #version 450 core
 #include "side_nodes.glsl"
-#include "raycast_constants.h"
 layout(local_size_x = 64) in;
 
 uniform sampler2D t_positions;

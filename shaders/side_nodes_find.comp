@@ -2,7 +2,6 @@
 // still hold it to, whatever the rounded distance says; held to neither side, it is of none (SRS_SIDE_LOOSE).
 #version 450 core
 #include "side_nodes.glsl"
-#include "raycast_constants.h"
 layout(local_size_x = 64) in;
 
 layout(std430) restrict writeonly buffer b_found { float b_foundSide[]; };

@@ -24,8 +24,7 @@ std::vector<SceneKey> deformationKeys() {
         quantity("deformation", "angle", Dim::angle, {-5000, 5000}, "", "twist, bend: how far"),
         quantity("deformation", "amount", Dim::length, kAny, "",
                  "pull, wave: how high, along y; knife, seam, incision: half of the opening; peel: x of the "
-                 "line to "
-                 "which it is peeled"),
+                 "line to which it is peeled"),
         quantity("deformation", "radius", Dim::length, kPositive, "",
                  "pull: of the bump; peel: of the roll; sphere: its own"),
         quantity("deformation", "extent", Dim::length, kPositive, "",
@@ -33,8 +32,7 @@ std::vector<SceneKey> deformationKeys() {
                  "its x axis"),
         quantity("deformation", "depth", Dim::length, kPositive, "",
                  "knife, seam, incision: of the cut, from the top face of its box; peel: of the ground above "
-                 "the box's "
-                 "bottom; box: along y"),
+                 "the box's bottom; box: along y"),
         quantity("deformation", "width", Dim::length, kPositive, "",
                  "peel: of the flap; incision: of the tissue that gives way; box: along z"),
         plain("deformation", "narrow", Kind::boolean, kAny, "false", "pull: ends at its radius"),

@@ -15,7 +15,21 @@
 namespace serosa::render {
 namespace {
 
-class GlLatticeWarp : public test::GlTest {};
+class GlLatticeWarp : public test::GlTest {
+protected:
+    /// The inverse of a state, two voxels a spacing at rest.
+    LatticeWarp::Read inverseOf(const sim::Lattice& lattice, const sim::LatticeState& state) {
+        auto textures = sim::StateTextures::create(lattice, {});
+        EXPECT_TRUE(textures.ok());
+        auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
+        EXPECT_TRUE(warp.ok());
+        textures->upload(state);
+        EXPECT_TRUE(warp->update(*textures).ok());
+        size_ = warp->size();
+        return warp->read();
+    }
+    glm::ivec3 size_{0}; // of it
+};
 
 /// A block that is stretched, turned and bent.
 sim::LatticeState bent(const sim::Lattice& lattice, double strength) {
@@ -87,10 +101,6 @@ TEST_F(GlLatticeWarp, TakesWhatCellsCarryBackToRest) {
 // A slice of nodes lies so far below that the bounds' voxels would be longer than the organ.
 TEST_F(GlLatticeWarp, APieceThatFellOffTakesNothingFromTheRest) {
     const sim::Lattice lattice = test::blockLattice(9, 5, 6, 0.004);
-    auto textures = sim::StateTextures::create(lattice, {});
-    ASSERT_TRUE(textures.ok());
-    auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
-    ASSERT_TRUE(warp.ok()) << warp.error().message;
     for (const double fall : {12.0, 30.0, 300.0}) {
         sim::LatticeState state = bent(lattice, 0);
         double first = 1e9, most = 0;
@@ -99,15 +109,13 @@ TEST_F(GlLatticeWarp, APieceThatFellOffTakesNothingFromTheRest) {
         for (std::size_t i = 0; i < lattice.nodeCount(); ++i)
             if (lattice.restPosition(i).x < first + 1.5)
                 state.positions[i].y -= fall;
-        textures->upload(state);
-        ASSERT_TRUE(warp->update(*textures).ok());
-        const LatticeWarp::Read read = warp->read();
+        const LatticeWarp::Read read = inverseOf(lattice, state);
         EXPECT_LE(std::max({read.step.x, read.step.y, read.step.z}), 0.7501) << "spacings a voxel";
         std::size_t seen = 0;
         for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
             if (lattice.restPosition(i).x < first + 3.5) // beside the cells that are drawn out
                 continue;
-            const glm::dvec4 d = sample(read, warp->size(), state.positions[i]);
+            const glm::dvec4 d = sample(read, size_, state.positions[i]);
             ASSERT_GT(d.w, 0.999) << fall;
             most = std::max(
                 most, glm::distance(glm::dvec3(state.positions[i]) + glm::dvec3(d), lattice.restPosition(i)));
@@ -121,21 +129,15 @@ TEST_F(GlLatticeWarp, APieceThatFellOffTakesNothingFromTheRest) {
 // What is thin has room to turn.
 TEST_F(GlLatticeWarp, ASlenderOneMayTurn) {
     const sim::Lattice lattice = test::blockLattice(30, 2, 2, 0.004);
-    auto textures = sim::StateTextures::create(lattice, {});
-    ASSERT_TRUE(textures.ok());
-    auto warp = LatticeWarp::create(lattice, textures->layout(), 2);
-    ASSERT_TRUE(warp.ok()) << warp.error().message;
     sim::LatticeState state = sim::restState(lattice);
     for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
         const glm::dvec3 p = lattice.restPosition(i);
         state.positions[i] = glm::dvec3(-p.y, p.x, p.z);
     }
-    textures->upload(state);
-    ASSERT_TRUE(warp->update(*textures).ok());
-    const LatticeWarp::Read read = warp->read();
+    const LatticeWarp::Read read = inverseOf(lattice, state);
     std::size_t lost = 0;
     for (std::size_t i = 0; i < lattice.nodeCount(); ++i) {
-        const glm::dvec4 d = sample(read, warp->size(), state.positions[i]);
+        const glm::dvec4 d = sample(read, size_, state.positions[i]);
         lost += !(d.w > 0.999 && glm::distance(glm::dvec3(state.positions[i]) + glm::dvec3(d),
                                                lattice.restPosition(i)) < 1e-3);
     }
